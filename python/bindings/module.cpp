@@ -157,16 +157,16 @@ py::array columns(const std::vector<Number>& first, const std::vector<Number>& s
 
 /// Values of a quantity, row by row.
 struct Values {
-  const analysis::FrameQuantity* quantity = nullptr;
+  analysis::FrameQuantity quantity;
   std::vector<double> numbers{};
 };
 
 Values grain_values(MeasuredFrame& frame, const std::string& name) {
-  return {&frame.grain_quantity(name), frame.grain_values(name)};
+  return {frame.grain_quantity(name), frame.grain_values(name)};
 }
 
 Values contact_values(MeasuredFrame& frame, const std::string& name) {
-  return {&frame.contact_quantity(name), frame.contact_values(name)};
+  return {frame.contact_quantity(name), frame.contact_values(name)};
 }
 
 template <typename Number>
@@ -179,12 +179,12 @@ py::array array_of(const std::vector<double>& numbers, const std::vector<py::ssi
 
 /// Returns rows of one number, of two numbers, or of a tensor; ids and counts as integers.
 py::array rows(const Values& values) {
-  const std::size_t width = analysis::components(*values.quantity);
+  const std::size_t width = analysis::components(values.quantity);
   std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(values.numbers.size() / width)};
   if (width == 2) shape.push_back(2);
   if (width == 4) shape.insert(shape.end(), {2, 2});
-  if (values.quantity->flag) return array_of<bool>(values.numbers, shape);
-  if (values.quantity->number == analysis::FieldNumber::integer)
+  if (values.quantity.flag) return array_of<bool>(values.numbers, shape);
+  if (values.quantity.number == analysis::FieldNumber::integer)
     return array_of<std::int64_t>(values.numbers, shape);
   return array_of<double>(values.numbers, shape);
 }

@@ -4,8 +4,14 @@
 
 #include <algorithm>
 
+#include "analysis/frame_quantities.h"
 #include "base/errors.h"
+#include "base/hash.h"
+#include "base/output_file.h"
 #include "interpreter.h"
+#include "io/packed_file.h"
+#include "io/run_file.h"
+#include "pictures/map_kind.h"
 #include "pictures/map_options.h"
 #include "pictures/maps.h"
 #include "pictures/panel.h"
@@ -93,18 +99,46 @@ void bind_options(py::module_& module) {
       .def_readwrite("bare", &pictures::MapOptions::bare);
 }
 
+/// Returns the names of the maps and the columns of Talus, which values of a script cannot have.
+std::vector<std::string> names_of_talus() {
+  std::vector<std::string> names = {"frame"};
+  for (const pictures::MapKind kind : pictures::map_kinds()) names.emplace_back(pictures::map_name(kind));
+  for (const auto table : {analysis::grain_quantities(), analysis::contact_quantities()})
+    for (const analysis::FrameQuantity& quantity : table) {
+      names.emplace_back(quantity.name);
+      const std::vector<std::string> columns = analysis::component_names(quantity);
+      names.insert(names.end(), columns.begin(), columns.end());
+    }
+  return names;
+}
+
+/// Stores a quantity with a run.
+void store(const std::string& path, const OwnQuantity& own) {
+  pictures::check_text("label", own.label);
+  pictures::check_text("unit", own.unit);
+  if (const std::string reason = protection_of(path); !reason.empty())
+    throw Error(ExitCode::cannot_create, "{}: {}", path, reason);
+  const io::RunFile run = io::RunFile::open(path);
+  io::store_own(path, own, hash_text(state_hash(run.checkpoint().world)));
+}
+
 }  // namespace
 
 void bind_pictures(py::module_& module) {
   bind_options(module);
-  py::class_<pictures::OwnQuantity>(module, "OwnQuantity")
+  py::class_<OwnQuantity>(module, "OwnQuantity")
       .def(py::init([](const std::vector<double>& values, const std::string& kind, const std::string& label,
-                       const std::string& unit) {
-        using Kind = pictures::OwnQuantity::Kind;
+                       const std::string& unit, const std::string& name, bool of_grains) {
+        using Kind = OwnQuantity::Kind;
         const Kind of = kind == "flag" ? Kind::flag : kind == "cluster" ? Kind::cluster : Kind::number;
-        return pictures::OwnQuantity{values, of, label, unit};
+        return OwnQuantity{values, of, label, unit, name, of_grains};
       }));
   py::class_<render::FrameView>(module, "Map");
+  module.def("_names_of_talus", &names_of_talus);
+  module.def("_store", [](const std::string& path, const OwnQuantity& own) {
+    require_files();
+    without_interpreter([&] { store(path, own); });
+  });
   module.def("_png", &png_of);
   module.def("_panel", [](const Maps& rows, const std::string& title, int width) {
     pictures::check_text("title", title);

@@ -63,17 +63,56 @@ def _choice(what: Any, label: str | None, unit: str) -> Any:
         if label is not None or unit:
             raise WrongType(f"map {short(what)}: only values of your own take a label and a unit")
         return what
+    values, kind = own_values(what, f"map {short(what)}: expected the name of a map, or an array")
+    return _extension().OwnQuantity(values, kind, _text("values" if label is None else label, "label"), _text(unit, "unit"),
+                                    "values", True)
+
+
+#: What a grain or contact without a value has.
+NO_VALUE = {"flag": 0, "cluster": -1, "number": np.nan}
+
+
+def own_values(what: Any, expected: str) -> tuple[np.ndarray, str]:
+    """Returns values of one's own as floats, and their kind. Raises WrongType, which begins as `expected`, for others."""
     try:
         values = np.asarray(what)
     except Exception:  # raised by a user-defined __array__
         values = np.empty((), object)
     if values.ndim != 1 or values.dtype.kind not in KINDS:
-        raise WrongType(f"map {short(what)}: expected the name of a map, or an array with a number, a label (integer) or True "
-                        "or False for each grain or each contact")
+        raise WrongType(f"{expected} with a number, a label (integer) or True or False for each grain or each contact")
     kind, values = KINDS[values.dtype.kind], values.astype(float)
     if isinstance(what, np.ma.MaskedArray):
-        values[np.ma.getmaskarray(what)] = {"flag": 0, "cluster": -1, "number": np.nan}[kind]
-    return _extension().OwnQuantity(values, kind, _text("values" if label is None else label, "label"), _text(unit, "unit"))
+        values[np.ma.getmaskarray(what)] = NO_VALUE[kind]
+    return values, kind
+
+
+def stored_quantity(run: Any, name: Any, frames: Iterable[Any], label: Any, unit: Any) -> Any:
+    """Returns a quantity for the extension that is to be stored with a run: `frames` has the values of each frame."""
+    if not re.fullmatch("[a-z][a-z0-9_-]{0,39}", check_text(name, "name")):
+        raise WrongValue(f"name {short(name)}: expected up to 40 lower-case letters, digits, _ and -, beginning with a letter")
+    if re.sub("_[0-9][0-9_]*$", "", name) in (known := _extension()._names_of_talus()) or name in known:
+        raise WrongValue(f"name {short(name)}: is that of a map or a quantity of Talus; choose another")
+    try:
+        arrays = [own_values(each, f"frame {k}: {short(each)}: expected an array") for k, each in enumerate(frames)]
+    except TypeError as error:
+        raise error if isinstance(error, WrongType) else WrongType(f"values {short(frames)}: expected an array for each frame")
+    if len(arrays) != len(run.frames) or not arrays:
+        raise WrongValue(f"{len(arrays)} arrays: expected one for each of the {len(run.frames)} frames")
+    kind = arrays[0][1]
+    grains, free = len(run.id), int(run.free.sum())
+    of_grains = all(len(values) in (free, grains) for values, _ in arrays)
+    rows = []
+    for k, (values, its_kind) in enumerate(arrays):
+        carries = np.arange(grains) < len(values) if of_grains else run.frames[k]._carries
+        if its_kind != kind:
+            raise WrongType(f"frame {k}: a {its_kind}, after a {kind}: expected numbers, integers or flags in all frames")
+        if len(values) != carries.sum():
+            raise WrongValue(f"frame {k}: {len(values)} values: expected one for each of the {free} free grains, of all {grains} "
+                             f"grains, or of the {carries.sum()} contacts that carry force")
+        rows.append(np.full(len(carries), NO_VALUE[kind], float))
+        rows[-1][carries] = values
+    return _extension().OwnQuantity(np.concatenate(rows), kind, _text(name if label is None else label, "label"),
+                                    _text(unit, "unit"), name, of_grains)
 
 
 def _options(values: Mapping[str, Any]) -> Any:

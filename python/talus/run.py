@@ -2,7 +2,7 @@
 
 import os
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 from operator import index as as_integer
 from pathlib import Path
@@ -12,7 +12,9 @@ import numpy as np
 
 from talus.checked_file import Identity, field_of
 from talus.checks import check_between, check_frame_values, check_series, check_statics, refuse
-from talus.errors import Closed, Error, MissingIndex, MissingName, WrongType, WrongValue, check_text, short, suggestion
+from talus.drawing import stored_quantity
+from talus.errors import (Closed, Error, MissingIndex, MissingName, WrongType, WrongValue, check_flag, check_text,
+                          error_of_code, short, suggestion)
 from talus.frame import Frame
 from talus.schema import ANALYSIS, DATA_SETS, SCHEMA
 from talus.storage import Storage, find_run, manifest_text, unreadable
@@ -373,6 +375,28 @@ class Run(Closed):
     def steps(self) -> Table:
         """Record of the solver for each step: "iterations", "residual", ..."""
         return self._series("steps")
+
+    @property
+    def own(self) -> list[str]:
+        """Names of the quantities stored by `store`: `frame.grains[name]`, `frame.contacts[name]`, `frame.draw(name)`."""
+        return [name.partition("/")[2] for name in self.storage.names("own")]
+
+    def store(self, name: str, values: Iterable[Any], *, label: str | None = None, unit: str = "", overwrite: bool = False) -> None:
+        """Stores a quantity of your own with a complete run: `values` has an array for each frame of `frames`, of numbers
+        (NaN: none), labels (integers, below 0: none) or flags, one for each free grain, each grain or each contact that
+        carries force. The commands that draw and export, the window, and frames taken from then on know it by its name, of
+        lower-case letters, digits, _ and -, and maps show its label and unit."""
+        from talus.simulation import _extension, _path
+
+        if not self.complete or not self.has_frames:
+            raise Error(f"{self.path}: " + ("has no frames to store values with (--keep analysis)" if self.complete else
+                        "is not complete; values can be stored once it is"))
+        own = stored_quantity(self, name, values, label, unit)
+        if name in self.own and not check_flag(overwrite, "overwrite"):
+            raise error_of_code(73, f"{self.path}: has values of {name} already; replace them with overwrite=True")
+        _extension()._store(_path(self.storage.absolute), own)
+        self.storage.close()
+        self.storage = Storage(self.storage.absolute)
 
     def _series(self, group: str) -> Table:
         table = Table(self, group)

@@ -152,6 +152,8 @@ DATA_SETS = {
     "readings/key/*": ("text", "", "1"),
     "readings/value/*": ("float64", "F W", "by quantity"),
     "readings/at_most/*": ("int8", "F W", "1"),
+    "own/grains/*": ("float64", "T N", "by quantity"),
+    "own/contacts/*": ("float64", "M", "by quantity"),
     "analysis/version": ("int32", "", "1"),
     "analysis/key": ("text", "", "1"),
     "analysis/parameters/*": ("text", "", "1"),

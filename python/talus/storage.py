@@ -125,7 +125,7 @@ class Storage:
             k -= self.frames[part]
             part += 1
         with self._file(self.parts[part]) as file:
-            if name.startswith("contacts/"):
+            if name.startswith(("contacts/", "own/contacts/")):
                 first, last = file.read("contacts/offset", k, 2).tolist()
                 rows = file.rows("contacts/pair")
                 if not 0 <= first <= last <= rows:

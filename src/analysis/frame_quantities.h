@@ -80,6 +80,9 @@ struct FrameQuantity {
 std::span<const FrameQuantity> grain_quantities();
 std::span<const FrameQuantity> contact_quantities();
 
+/// Returns the row of a quantity of a script, which must outlive it; it has no function of the values.
+FrameQuantity row_of(const OwnQuantity& own);
+
 /// Returns the number of components of a quantity: 1, 2 or 4.
 inline std::size_t components(const FrameQuantity& quantity) {
   return static_cast<std::size_t>(quantity.shape);

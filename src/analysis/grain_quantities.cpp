@@ -375,6 +375,14 @@ BedUnit bed_unit(std::string_view unit, const RunStatics& statics) {
   return {unit == "1" ? "" : std::string(unit), 1.0};
 }
 
+FrameQuantity row_of(const OwnQuantity& own) {
+  FrameQuantity row{own.name, FieldShape::scalar, FieldNumber::real, own.unit, own.label};
+  if (own.kind != OwnQuantity::Kind::number) row.number = FieldNumber::integer;
+  if (own.unit.empty()) row.unit = "1";
+  row.flag = own.kind == OwnQuantity::Kind::flag;
+  return row;
+}
+
 std::vector<std::string> component_names(const FrameQuantity& quantity) {
   std::vector<std::string> names = {std::string(quantity.name)};
   if (quantity.shape == FieldShape::vector) names = {"x", "y"};

@@ -29,7 +29,7 @@ struct AnimateArguments {
 
 pictures::MapPlan plan_movie(const AnimateArguments& arguments) {
   const pictures::MapOptions options = map_options(arguments.maps);
-  pictures::MapPlan plan = pictures::plan_maps(options);
+  pictures::MapPlan plan = pictures::plan_maps(options, arguments.run);
   if (plan.width / static_cast<int>(plan.maps.size()) < render::smallest_width && plan.height == 0)
     throw Error(ExitCode::usage,
                 "a width of {} px is too small: each of {} maps next to each other needs at least {} px",

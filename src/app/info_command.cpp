@@ -180,6 +180,19 @@ void add_commands(std::vector<Fact>& facts, const io::RunFile& run, const std::v
   facts.push_back({"", "", "commands_not_carried_out", waiting});
 }
 
+void add_own(std::vector<Fact>& facts, const io::RunFile& run) {
+  std::string lines;
+  Json given = Json::array();
+  for (const OwnQuantity& own : run.own()) {
+    const std::string what =
+        visible_word(own.label) + (own.unit.empty() ? "" : " in " + visible_word(own.unit));
+    const char* const rows = own.of_grains ? "grains" : "contacts";
+    lines += fmt::format("\n  {:<30}{}, of {}", own.name, what, rows);
+    given.push_back({{"name", own.name}, {"label", own.label}, {"unit", own.unit}, {"of", rows}});
+  }
+  facts.push_back({run.own().empty() ? "" : "values of scripts", lines, "own", given});
+}
+
 std::vector<Fact> facts_of_run(const io::RunFile& run, const std::string& path) {
   const io::RunHeader& header = run.header();
   const io::Checkpoint& end = run.checkpoint();
@@ -216,6 +229,7 @@ std::vector<Fact> facts_of_run(const io::RunFile& run, const std::string& path) 
   };
   section("results (SI)", "results", end.results, "{:.4g}");
   section("timing (s)", "timing", end.timing, "{:.3f}");
+  add_own(facts, run);
   facts.push_back({"", "", "provenance", object_of(header.provenance)});
   return facts;
 }

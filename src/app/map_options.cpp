@@ -29,7 +29,8 @@ std::string list_of_palettes() { return joined(pictures::cluster_palettes, " or 
 void add_live_options(CLI::App& command, MapArguments& arguments) {
   add_option(command, "--map", arguments.options.maps, "MAP,...",
              "Maps to draw, separated by commas; a plus overlays two, as in gamma+forces. Available maps: " +
-                 pictures::list_of_maps() + " [gamma,overloaded]")
+                 pictures::list_of_maps() +
+                 ", and the names of values stored with the run [gamma,overloaded]")
       ->delimiter(',')
       ->allow_extra_args(false);
   add_option(

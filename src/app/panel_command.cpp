@@ -33,7 +33,7 @@ pictures::MapPlan plan_panel(const PanelArguments& arguments) {
   pictures::check_text("--title", arguments.panel.title);
   pictures::MapOptions options = map_options(arguments.maps);
   options.document = render::is_document(output);
-  pictures::MapPlan plan = pictures::plan_maps(options);
+  pictures::MapPlan plan = pictures::plan_maps(options, arguments.run);
   if (!plan.traces.empty())
     throw Error(ExitCode::usage, "--trace marks one angle, but a panel shows several; use talus render");
   if (options.bare && !arguments.panel.title.empty())

@@ -38,7 +38,7 @@ void render(const RenderArguments& arguments) {
   const Watch rendering = {count_shown("rendering", arguments.quiet), asked_to_stop};
   pictures::MapOptions options = map_options(arguments.maps);
   options.document = arguments.format != "png";
-  const pictures::MapPlan plan = pictures::plan_maps(options);
+  const pictures::MapPlan plan = pictures::plan_maps(options, arguments.run);
   pictures::DrawnRun run = pictures::open_drawn_run(arguments.run, plan, reading);
   FrameOptions frames = arguments.frames;
   if (frames.at.empty() && !frames.every) frames.every = 1.0;

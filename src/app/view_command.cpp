@@ -26,7 +26,7 @@
 #include "gui/screen.h"
 #include "io/durable_file.h"
 #include "io/run_file.h"
-#include "pictures/map_kind.h"
+#include "pictures/map_plan.h"
 #include "render/image.h"
 #include "render/layout.h"
 #include "render/png.h"
@@ -80,7 +80,7 @@ void show_second_view(view::ViewModel& model, const ViewArguments& arguments) {
 
 /// Applies the options that set the initial display.
 void show_first(view::ViewModel& model, const ViewArguments& arguments) {
-  if (!arguments.map.empty()) model.state.map.layers = pictures::map_layers(arguments.map);
+  if (!arguments.map.empty()) pictures::choose_map(model.state.map, arguments.map, model.own_maps());
   if (!arguments.at.empty()) model.go_to(model.frame_at_angle(arguments.at));
   if (arguments.grain && *arguments.grain >= model.statics().free_count)
     throw Error(ExitCode::usage, "--grain {}: the grains are numbered 0 to {}", *arguments.grain,
@@ -131,8 +131,7 @@ std::string continuation_text(const view::Recording& run) {
                      run.seed);
 }
 
-/// Writes "NAME<tab>X0 Y0 X1 Y1" for each widget, px of the window, for scripts that click; only if the text
-/// has changed.
+/// Writes "NAME<tab>X0 Y0 X1 Y1" for each widget, px of the window, for scripts that click; if changed.
 void write_places(const std::string& path, const std::vector<gui::WidgetPlace>& places,
                   std::string& written) {
   std::string text;
@@ -214,8 +213,7 @@ void show(view::ViewModel& model, const std::string& places, gui::GuiWindow& win
   }
 }
 
-/// Returns the rule for a run that the window records, and reports errors of the input even without a
-/// display.
+/// Returns the rule for a run that the window records, and reports errors even without a display.
 OutputRule checked_input(const ViewArguments& arguments) {
   const bool is_missing_run = io::is_run(arguments.file) && !is_there(arguments.file) &&
                               io::run_presence(arguments.file) == io::RunPresence::none;

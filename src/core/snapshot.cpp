@@ -39,6 +39,8 @@ void remove_open_contacts(Frame& frame, double threshold) {
   for (auto* numbers :
        {&contacts.nx, &contacts.ny, &contacts.px, &contacts.py, &contacts.fn, &contacts.ft, &contacts.moment})
     keep_loaded(*numbers);
+  for (OwnQuantity& own : frame.own)
+    if (!own.of_grains) keep_loaded(own.values);
   keep_loaded(contacts.a);
   keep_loaded(contacts.b);
   keep_loaded(contacts.shift);

@@ -16,8 +16,7 @@
 
 namespace talus {
 
-/// The contacts of a frame: those that carry force (force_threshold), in the order of their keys, with the
-/// conventions of Contacts.
+/// The contacts that carry force (force_threshold), in the order of their keys, as in Contacts.
 struct FrameContacts {
   std::vector<Index> a, b;
   std::vector<std::int8_t> shift;
@@ -38,6 +37,22 @@ struct Friction {
   bool operator==(const Friction&) const = default;
 };
 
+/// Values of a script for the grains of a frame, floor included, or for its contacts.
+struct OwnQuantity {
+  enum class Kind {
+    number,   ///< drawn on a scale; NaN: no value
+    flag,     ///< 0 or 1, drawn in two tones
+    cluster,  ///< label, which has the same colour in all pictures; below 0: in no cluster
+  };
+  std::vector<double> values;
+  Kind kind = Kind::number;
+  std::string label = "values", unit{};  ///< rich texts, such as "v_y" and "m/s"
+  std::string name{};                    ///< name under which it is stored with a run
+  bool of_grains = true;                 ///< otherwise of contacts
+
+  bool operator==(const OwnQuantity&) const = default;
+};
+
 /// The bed at one instant. Arrays run over all grains, floor included, in the order of their ids.
 struct Frame {
   std::int64_t step = 0;
@@ -50,7 +65,8 @@ struct Frame {
       internal_moment;        ///< J (per metre of thickness); compression positive; Eq. (4) of the paper
   std::vector<double> gamma;  ///< stress ratio q/p of each grain; NaN for a grain that carries no load
   FrameContacts contacts;
-  Friction friction;  ///< friction in the step that led to this state, and thus to its forces
+  Friction friction;               ///< friction in the step that led to this state, and thus to its forces
+  std::vector<OwnQuantity> own{};  ///< those stored with the run
 
   Index grain_count() const { return x.size(); }
 };
@@ -80,8 +96,7 @@ double force_threshold(std::span<const double> mass, Index free_count, double gr
 double force_threshold(const RunStatics& statics);
 
 /// Removes the contacts of a frame with a normal force below `threshold`, and clears the grains that have no
-/// contact then. Frames of make_frame (session/measure.h) have no such contacts; files of earlier revisions
-/// may.
+/// contact then. Only files of earlier revisions have such contacts.
 void remove_open_contacts(Frame& frame, double threshold);
 
 /// Sets gamma of the grains without contacts to NaN, and their internal moments to 0 unless the trace is

@@ -102,7 +102,7 @@ ForeignNames foreign_names(const analysis::FrameQuantity& field) {
 }
 
 std::vector<FieldColumn> columns(std::span<const analysis::FrameQuantity> fields,
-                                 const analysis::GrainSource& frame) {
+                                 const analysis::GrainSource& frame, bool of_grains) {
   std::vector<FieldColumn> found;
   for (const analysis::FrameQuantity& field : fields) {
     if (field.name.empty() || !analysis::is_of_frame(field))
@@ -112,17 +112,19 @@ std::vector<FieldColumn> columns(std::span<const analysis::FrameQuantity> fields
     for (std::size_t f = 0; by_threshold && f < frame.thresholds.size(); ++f)
       found.push_back({field, analysis::threshold_ending(frame.factors[f]), field.values(frame, f)});
   }
+  for (const OwnQuantity& own : frame.frame.own)
+    if (own.of_grains == of_grains) found.push_back({analysis::row_of(own), "", own.values});
   return found;
 }
 
 }  // namespace
 
 std::vector<FieldColumn> grain_columns(const analysis::GrainSource& frame) {
-  return columns(analysis::grain_quantities(), frame);
+  return columns(analysis::grain_quantities(), frame, true);
 }
 
 std::vector<FieldColumn> contact_columns(const analysis::GrainSource& frame) {
-  return columns(analysis::contact_quantities(), frame);
+  return columns(analysis::contact_quantities(), frame, false);
 }
 
 std::vector<std::string> component_names(const FieldColumn& column) {

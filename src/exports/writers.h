@@ -23,7 +23,7 @@ namespace talus::exports {
 
 /// A quantity of a frame.
 struct FieldColumn {
-  const analysis::FrameQuantity& field;
+  analysis::FrameQuantity field;
   std::string ending;          ///< suffix of its threshold, if it has one: "_1_5" for 1.5
   std::vector<double> values;  ///< one entry per row
 
@@ -42,8 +42,7 @@ std::vector<FieldColumn> contact_columns(const analysis::GrainSource& frame);
 std::vector<std::string> component_names(const FieldColumn& column);
 
 /// Returns the box, m. Along x it is the period, or reaches from wall to wall; along y it reaches from the
-/// lowest to the highest point of the grains in the frame. In the empty direction z it is one mean diameter
-/// thick.
+/// lowest to the highest point of the grains in the frame. Along z it is one mean diameter thick.
 pictures::MapExtent bed_bounds(const analysis::GrainSource& frame);
 
 // Frames and observables as tables. The first line names columns, with their units in brackets: "time (s)". A
@@ -67,14 +66,12 @@ std::string observables_csv(std::span<const ObservableRow> rows);
 
 /// Returns a frame, to be appended to the preceding one in the same file. Lengths are in mean diameters, and
 /// everything else is in SI units: OVITO interprets coordinates that all lie between 0 and 1 as fractions of
-/// the box, which would happen for a bed shorter than a metre. The line of the box contains the mean diameter
-/// in m.
+/// the box, which would happen for a bed shorter than a metre. The line of the box has the diameter, m.
 std::string xyz_text(const analysis::GrainSource& frame);
 
 // Frames as the text of a LAMMPS dump (custom style), for OVITO.
 
-/// Written only before the first frame, as LAMMPS does; after a second header, OVITO would not find the
-/// frames.
+/// Written only before the first frame, as LAMMPS does: OVITO would not find frames after a second one.
 inline constexpr std::string_view lammps_dump_head = "ITEM: UNITS\nsi\n";
 
 /// Returns a frame, to be appended to the preceding one in the same file: SI units (`units si`), and no

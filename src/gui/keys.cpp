@@ -39,14 +39,15 @@ void change_number(Gui& gui, double& value, double step, double low, double high
 
 void show_map_message(Gui& gui) {
   const pictures::MapLayers& layers = gui.state.map.layers;
-  show_message(
-      gui, fmt::format("Map: {}{}.", pictures::layers_name(layers), layers.size() > 1 ? "" : ", no overlay"));
+  show_message(gui, fmt::format("Map: {}{}.", pictures::name_of(gui.state.map),
+                                layers.size() > 1 ? "" : ", no overlay"));
 }
 
 void choose_map(Gui& gui, ImWchar digit) {
   pictures::MapLayers& layers = gui.state.map.layers;
   if (const auto k = static_cast<std::size_t>(digit - '1'); k < pictures::map_kinds().size()) {
     layers[0] = pictures::map_kinds()[k];
+    gui.state.map.own.reset();
     if (layers.size() > 1 && layers[1] == layers[0]) layers.pop_back();
   }
   show_map_message(gui);
@@ -65,11 +66,10 @@ void choose_overlay(Gui& gui, ImWchar key) {
   show_map_message(gui);
 }
 
-/// Cycles through the bar's own colours and all colour maps; for clusters without a bar, through the
-/// palettes.
+/// Cycles through the bar's own colours and all colour maps; for clusters, through the palettes.
 void next_colours(Gui& gui, ImWchar) {
   pictures::MapSettings& map = gui.state.map;
-  if (pictures::shows(map.layers, pictures::MapKind::clusters) && !pictures::has_bar(map.layers)) {
+  if (pictures::has_palette(map) && !pictures::has_bar(map.layers)) {
     const std::size_t count = pictures::cluster_palettes.size();
     map.palette = pictures::cluster_palettes.at((static_cast<std::size_t>(map.palette) + 1) % count);
     return show_message(gui, fmt::format("Colours of clusters: {}.", pictures::palette_name(map.palette)));

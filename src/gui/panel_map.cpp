@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <fmt/core.h>
+#include <functional>
 #include <utility>
 
 #include "core/trigonometry.h"
 #include "gui/panels.h"
+#include "pictures/map_plan.h"
 
 namespace talus::gui {
 namespace {
@@ -28,13 +30,17 @@ bool choose_kind(Gui& gui, const char* name, const char* label, const char* none
 }
 
 void choose_layers(Gui& gui) {
-  pictures::MapLayers& layers = gui.state.map.layers;
-  std::optional base = layers.at(0);
-  if (choose_kind(gui, "map kind", "map", nullptr, base)) {
-    layers[0] = *base;
-    if (layers.size() > 1 && layers[1] == layers[0]) layers.pop_back();
+  pictures::MapSettings& map = gui.state.map;
+  pictures::MapLayers& layers = map.layers;
+  std::vector<std::string> names;
+  for (const pictures::MapKind kind : pictures::map_kinds()) names.emplace_back(pictures::map_name(kind));
+  for (const OwnQuantity& own : gui.model.own_maps()) names.push_back(own.name);
+  auto base = std::optional(map.own ? map.own->name : std::string(pictures::map_name(layers.at(0))));
+  if (choose_among(gui, "map kind", "map", names, std::identity(), nullptr, base)) {
+    const std::string over = layers.size() > 1 ? std::string(pictures::map_name(layers[1])) : *base;
+    pictures::choose_map(map, over == *base ? *base : *base + "+" + over, gui.model.own_maps());
   }
-  ImGui::TextWrapped("%s", std::string(pictures::map_help(layers[0])).c_str());
+  ImGui::TextWrapped("%s", (map.own ? map.own->label : std::string(pictures::map_help(layers[0]))).c_str());
   auto over = layers.size() > 1 ? std::optional(layers[1]) : std::nullopt;
   if (choose_kind(gui, "overlay", "overlay", "nothing", over)) {
     layers.resize(1);
@@ -45,9 +51,8 @@ void choose_layers(Gui& gui) {
 void choose_colours(Gui& gui) {
   pictures::MapSettings& map = gui.state.map;
   if (std::optional palette = map.palette;
-      pictures::shows(map.layers, pictures::MapKind::clusters) &&
-      choose_among(gui, "palette", "clusters", pictures::cluster_palettes, pictures::palette_name, nullptr,
-                   palette))
+      pictures::has_palette(map) && choose_among(gui, "palette", "clusters", pictures::cluster_palettes,
+                                                 pictures::palette_name, nullptr, palette))
     map.palette = *palette;
   bool reversed = map.colours && render::is_reversed(*map.colours);
   auto colours = map.colours ? std::optional(render::one_way(*map.colours)) : std::nullopt;

@@ -91,7 +91,7 @@ void draw_ticks(ImDrawList& list, const Axes& axes, float em, ImU32 ink) {
 
 constexpr float column_width = 2.0f;  // px: without a GPU each line takes time
 
-/// Lowest and highest point of a curve in a narrow column, in order of x: all that is visible.
+/// Lowest and highest point of a curve in a narrow column, in order of x: its visible extent.
 struct PixelColumn {
   ImVec2 low, high;
   bool low_first = true;

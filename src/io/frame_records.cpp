@@ -73,14 +73,6 @@ struct RowWriter {
 template <typename Take>
 RowWriter(Take) -> RowWriter<Take>;
 
-Rows contact_rows(Reader& reader, std::size_t row) {
-  const auto offset = reader.read<std::int64_t>(contact_group + "offset", {}, Rows{row, 2});
-  const auto rows = static_cast<std::int64_t>(reader.row_count(contact_group + "pair"));
-  if (offset[0] < 0 || offset[1] < offset[0] || offset[1] > rows)
-    reader.refuse(contact_group + "offset", fmt::format("does not ascend within the {} contacts", rows));
-  return {static_cast<std::uint64_t>(offset[0]), static_cast<std::uint64_t>(offset[1] - offset[0])};
-}
-
 template <typename T>
 void write_one(Writer& writer, const std::string& path, std::uint64_t row, const T& value) {
   writer.write_rows(path, row, std::as_bytes(std::span(&value, 1)));
@@ -99,6 +91,14 @@ void create_data_sets(Writer& writer) {
 }
 
 }  // namespace
+
+Rows contact_rows(Reader& reader, std::size_t row) {
+  const auto offset = reader.read<std::int64_t>(contact_group + "offset", {}, Rows{row, 2});
+  const auto rows = static_cast<std::int64_t>(reader.row_count(contact_group + "pair"));
+  if (offset[0] < 0 || offset[1] < offset[0] || offset[1] > rows)
+    reader.refuse(contact_group + "offset", fmt::format("does not ascend within the {} contacts", rows));
+  return {static_cast<std::uint64_t>(offset[0]), static_cast<std::uint64_t>(offset[1] - offset[0])};
+}
 
 std::uint64_t frame_hash(const Frame& frame) {
   Hasher hasher;

@@ -1,5 +1,6 @@
 #include "io/packed_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
 
@@ -145,11 +146,29 @@ std::vector<std::byte> bare_bytes(const std::string& path, const std::string& st
     throw Error(ExitCode::cannot_create,
                 path + ": was replaced by another run while it was being analysed; analyse it again");
   // HDF5 leaves holes after a removal, so the file is packed again.
-  if (!run.packed_reader().has(analysis_group) && keep_frames) return bytes;
+  if (!run.packed_reader().has(analysis_group) && run.own().empty() && keep_frames) return bytes;
   return packed_bytes(content_of(run, keep_frames));
 }
 
-void replace_packed(const std::string& path, const std::vector<std::byte>& file) {
+/// Data stored with a run after it was computed.
+struct Additions {
+  std::optional<analysis::Analysis> analysis;
+  std::vector<StoredReading> readings;
+  std::vector<OwnQuantity> own;
+};
+
+/// Replaces the packed file of `run` by one with these additions, those of frames only with `keep_frames`.
+void replace_packed(const std::string& path, const RunFile& run, const std::string& state_hash,
+                    const Additions& more, std::span<const analysis::Quantity> table = analysis::quantities(),
+                    bool keep_frames = true) {
+  std::vector<std::byte> file = bare_bytes(path, state_hash, keep_frames);
+  if (more.analysis) file = with_analysis(file, path, *more.analysis, more.readings, table);
+  if (keep_frames && !more.own.empty())
+    file = with_own(file, path,
+                    {{'T', run.all_frame_tilts().size()},
+                     {'N', run.header().statics.radius.size()},
+                     {'M', run.contact_count()}},
+                    more.own);
   // After a kill during packing, the leftover folder identifies its file by the seal, which changes here.
   if (const std::string target = output_target(path); run_presence(target) == RunPresence::packed)
     discard_folder(target);
@@ -217,19 +236,43 @@ std::vector<std::byte> with_analysis(const std::vector<std::byte>& packed, const
   return sealed(writer.image());
 }
 
+std::vector<OwnQuantity> read_own(const RunFile& run) {
+  std::vector<OwnQuantity> all = run.own();
+  if (all.empty()) return all;
+  Reader reader = run.packed_reader();
+  for (OwnQuantity& own : all) own.values = read_own_values(reader, own);
+  return all;
+}
+
+std::vector<std::byte> with_own(const std::vector<std::byte>& packed, const std::string& name, Sizes sizes,
+                                const std::vector<OwnQuantity>& own) {
+  Writer writer(std::move(sizes), seal_size, packed, name);
+  for (const OwnQuantity& quantity : own) write_own(writer, quantity);
+  return sealed(writer.image());
+}
+
 void store_analysis(const std::string& path, const analysis::Analysis& analysis,
                     const std::string& state_hash, std::span<const analysis::Quantity> table,
                     bool keep_frames) {
-  const std::vector<StoredReading> readings = read_readings(RunFile::open(path));
-  replace_packed(path,
-                 with_analysis(bare_bytes(path, state_hash, keep_frames), path, analysis, readings, table));
+  const RunFile run = RunFile::open(path);
+  replace_packed(path, run, state_hash, {analysis, read_readings(run), read_own(run)}, table, keep_frames);
 }
 
 void store_readings(const std::string& path, const std::vector<StoredReading>& readings,
                     const std::string& state_hash) {
-  const std::optional<analysis::Analysis> analysis = read_analysis(path);
+  const RunFile run = RunFile::open(path);
+  std::optional<analysis::Analysis> analysis = read_analysis(run);
   if (!analysis) throw Error(ExitCode::bad_data, path + " has no analysis of this version of Talus");
-  replace_packed(path, with_analysis(bare_bytes(path, state_hash, true), path, *analysis, readings));
+  replace_packed(path, run, state_hash, {std::move(analysis), readings, read_own(run)});
+}
+
+void store_own(const std::string& path, const OwnQuantity& own, const std::string& state_hash) {
+  const RunFile run = RunFile::open(path);
+  std::vector<OwnQuantity> all = read_own(run);
+  std::erase_if(all, [&own](const OwnQuantity& other) { return other.name == own.name; });
+  all.push_back(own);
+  std::ranges::sort(all, {}, path_of);  // equal contents give equal bytes
+  replace_packed(path, run, state_hash, {read_analysis(run), read_readings(run), std::move(all)});
 }
 
 }  // namespace talus::io

@@ -1,6 +1,6 @@
 #pragma once
-/// The packed file of a finished run: its contents, its H5MD metadata, its bytes (private to src/io), and the
-/// analysis stored in it.
+/// The packed file of a finished run: its contents, its bytes (private to src/io), and what is stored in it
+/// later.
 
 #include <cstddef>
 #include <cstdint>
@@ -24,8 +24,7 @@ struct RunContent {
   std::function<Frame(std::size_t)> frame_at;
   bool has_frames = true;  ///< false: only steps, times and tilts of frames are stored
 };
-/// Returns the contents of a run, which must outlive them; without frames if it has none or they are not
-/// wanted.
+/// Returns the contents of a run, which must outlive them; without frames if not wanted.
 RunContent content_of(const RunFile& run, bool with_frames = true);
 
 /// Whether a run was repaired without its last state, and so has no /checkpoint.
@@ -50,6 +49,13 @@ inline std::optional<analysis::Analysis> read_analysis(
 /// Returns the stored readings, in the order in which they were written.
 std::vector<StoredReading> read_readings(const RunFile& run);
 
+/// Returns the quantities that scripts have stored, with the values of all frames one after another.
+std::vector<OwnQuantity> read_own(const RunFile& run);
+
+/// Returns the packed file with these quantities added, as with_analysis does. `sizes` are T, N and M.
+std::vector<std::byte> with_own(const std::vector<std::byte>& packed, const std::string& name, Sizes sizes,
+                                const std::vector<OwnQuantity>& own);
+
 /// Returns the bytes of a packed file, called `name` in messages, with an analysis and readings added,
 /// sealed.
 std::vector<std::byte> with_analysis(const std::vector<std::byte>& packed, const std::string& name,
@@ -71,5 +77,8 @@ void store_analysis(const std::string& path, const analysis::Analysis& analysis,
 /// store_analysis.
 void store_readings(const std::string& path, const std::vector<StoredReading>& readings,
                     const std::string& state_hash);
+
+/// Stores the values of all frames, in place of those of the same name. Throws the errors of store_analysis.
+void store_own(const std::string& path, const OwnQuantity& own, const std::string& state_hash);
 
 }  // namespace talus::io

@@ -14,8 +14,7 @@
 namespace talus::io {
 namespace {
 
-/// Checks that the state contains the grains of the run, except those that have not arrived yet during
-/// pouring.
+/// Checks that the state contains the grains of the run, except those not yet poured.
 void check_grains(const Reader& reader, const RunStatics& statics, const Grains& grains) {
   const Index all = static_cast<Index>(statics.radius.size());
   if (grains.free_count <= statics.free_count &&
@@ -47,8 +46,7 @@ StoredSegment whole_file(Reader& reader) {
   return segment;
 }
 
-/// Whether a row of a series, which begins with its step, belongs to the first `last` steps; names are of no
-/// step.
+/// Whether a row of a series, which begins with its step, belongs to the first `last` steps; names always do.
 template <typename Row>
 bool is_known(const Row& row, std::int64_t last) {
   if constexpr (std::is_same_v<Row, std::string>)
@@ -71,6 +69,7 @@ struct RunFile::State {
   std::string name;  ///< name in messages
   std::vector<double> all_tilts, all_times;
   std::vector<Command> commands;
+  std::vector<OwnQuantity> own;
   std::vector<std::int64_t> all_steps;
   bool has_frames = true;
   std::vector<double> tilts;        ///< tilts of the frames that belong to the tilt
@@ -258,6 +257,9 @@ RunFile RunFile::read_packed(Reader&& reader, const std::string& name) {
     check_grains(*state->reader, state->header.statics, state->checkpoint.world.grains);
   }
   state->segments = {whole_file(*state->reader)};
+  if (state->has_frames)
+    for (const std::string& path : own_data_sets(*state->reader))
+      state->own.push_back(read_own_head(*state->reader, path));
   state->read_tilts();
   return RunFile(std::move(state));
 }
@@ -322,9 +324,15 @@ Frame RunFile::stored_frame(std::size_t k) const { return state_->read(read_fram
 
 Frame RunFile::frame(std::size_t k) const {
   Frame frame = stored_frame(k);
+  frame.own = state_->own;
+  for (OwnQuantity& own : frame.own)
+    own.values = read_own_values(*state_->reader, own,
+                                 own.of_grains ? hdf5::Rows{k, 1} : contact_rows(*state_->reader, k));
   remove_open_contacts(frame, force_threshold(header().statics));
   return frame;
 }
+
+const std::vector<OwnQuantity>& RunFile::own() const { return state_->own; }
 
 bool RunFile::has_frames() const { return state_->has_frames; }
 

@@ -69,9 +69,10 @@ class RunFile {
   /// Returns the paths of the data sets that do not match their own hashes, in a packed file with its
   /// analysis, or in the segments of a folder.
   std::vector<std::string> changed_data_sets() const;
-  /// Returns only step, time, tilt, x, y and image of frame k, several times faster than reading all of it.
-  /// Throws the errors of frame.
+  /// Returns only step, time, tilt, x, y and image of frame k, several times faster than frame.
   Frame positions(std::size_t k) const;
+  /// Returns the quantities of scripts, without their values, which are in Frame::own.
+  const std::vector<OwnQuantity>& own() const;
   std::vector<StepRow> steps() const;
   /// Returns the commands given to the run while it was computed, in order.
   const std::vector<Command>& commands() const;

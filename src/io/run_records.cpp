@@ -22,8 +22,7 @@ constexpr Range diameters = {1e-9, 1e9};
 
 Range lengths_of_bed(double d) { return {0.1 * d, 1e6 * d}; }
 
-/// Visits the static data. Lengths are limited relative to the diameter d, m, because grids are sized by
-/// these ratios.
+/// Visits the static data. Their ratios to the diameter d, m, are limited, because they size grids.
 template <typename Statics, typename Direction>
 void for_each_field(Statics& statics, double d, Direction direction) {
   Fields fields{direction};
@@ -336,6 +335,7 @@ std::vector<std::string> listed_data_sets(Reader& reader) { return lines_of(read
 std::vector<std::string> changed_data_sets(Reader& reader) {
   std::vector<std::string> changed = listed_data_sets(reader);
   changed.emplace_back("/contents");
+  for (const std::string& path : own_data_sets(reader)) changed.push_back(path);
   keep_changed(reader, changed);
   Reader reopened = reader.again();  // an analysis may have fewer frames
   std::vector<std::string> of_analysis = analysis_data_sets(reopened);

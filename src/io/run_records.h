@@ -27,8 +27,7 @@ inline constexpr Range not_negative = {.low = 0.0};
 /// Periodic images of contacts; a fast grain passes several periods in one step.
 inline constexpr Range shifts = {-100.0, 100.0};
 
-/// Rejects values of a record in the same way when it is read and when it is written, so that no run is
-/// written that cannot be read.
+/// Rejects the same values when a record is read and when it is written, so that what is written can be read.
 class RecordCheck {
  public:
   /// For a record that is written: throws Error(bad_data) that it cannot be stored.
@@ -99,8 +98,7 @@ template <typename T>
 using Stored = std::conditional_t<std::is_enum_v<NumberOf<T>> || std::is_same_v<NumberOf<T>, bool>,
                                   std::int8_t, NumberOf<T>>;
 
-/// Exchanges data sets, described once for both directions. A range limits the values that are read and
-/// written.
+/// Exchanges data sets, described once for both directions. A range limits their values.
 template <typename Direction>
 struct Fields {
   Direction direction;
@@ -163,8 +161,7 @@ struct Fields {
   }
 
  private:
-  /// Exchanges the values of a data set: `at(k)` refers to element k, after `resize(count)` in a record that
-  /// is read.
+  /// Exchanges the values of a data set: `at(k)` refers to element k, after `resize(count)` when reading.
   template <typename T, typename Resize, typename At>
   void exchange(const std::string& path, std::size_t count, Range range, const Resize& resize, const At& at) {
     if constexpr (Direction::reads) {
@@ -206,6 +203,22 @@ std::uint64_t frame_hash(const Frame& frame);
 /// `farthest`, because other code uses these values as indices, or sizes grids by them, without a check.
 void check_frame(const RecordCheck& record, const Frame& frame, double farthest, std::size_t planes);
 
+/// Returns the rows of the contacts of frame `row` of the file.
+hdf5::Rows contact_rows(Reader& reader, std::size_t row);
+
+/// Returns the paths of the quantities that scripts have stored.
+std::vector<std::string> own_data_sets(const Reader& reader);
+/// Returns one of them without its values. The reader must know the sizes T, N and M. Throws Error(bad_data)
+/// unless its name, kind and shape are valid.
+OwnQuantity read_own_head(Reader& reader, const std::string& path);
+/// Returns all values of such a quantity, or some rows of them.
+std::vector<double> read_own_values(Reader& reader, const OwnQuantity& own,
+                                    std::optional<hdf5::Rows> rows = {});
+/// Writes a quantity with the values of all frames. Sizes: T, N, M.
+void write_own(Writer& writer, const OwnQuantity& own);
+/// Returns the path of its data set.
+std::string path_of(const OwnQuantity& own);
+
 /// Write and read all but the frames of a segment: /observables, /steps, and the groups /commands and
 /// /trials, which exist only if they have rows. Sizes: R, S, K, Q.
 Sizes sizes_of(const Segment& segment);
@@ -229,8 +242,7 @@ Checkpoint read_results(Reader& reader);
 
 /// Returns the data sets of the run, without its analysis, that a file lists.
 std::vector<std::string> listed_data_sets(Reader& reader);
-/// Whether a data set matches its own hash. Data sets covered by the hashes of frames do; unreadable ones do
-/// not.
+/// Whether a data set matches its own hash. Those covered by hashes of frames do; unreadable ones do not.
 bool is_as_written(Reader& reader, const std::string& path);
 /// Returns the paths of the data sets that do not match, including those of a stored analysis.
 std::vector<std::string> changed_data_sets(Reader& reader);

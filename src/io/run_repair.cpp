@@ -51,8 +51,7 @@ std::optional<std::string> folder_of(const std::string& run) {
   refuse_no_run(run);
 }
 
-/// Pads a file to its original size. HDF5 does not open a truncated file; after padding, the data before the
-/// cut can be read.
+/// Pads a file to its original size. After that HDF5 opens it, and the data before the cut can be read.
 Bytes padded(Bytes bytes) {
   constexpr std::uint64_t most = 8;  // times the remaining size
   const std::uint64_t size = sealed_size(bytes);
@@ -130,8 +129,7 @@ class Salvager {
     return paths;
   }
 
-  /// Returns the group that is kept or dropped together. The state needs the results, which are kept without
-  /// it.
+  /// Returns the group that is kept or dropped together. The state needs the results.
   static std::string group_of(const std::string& path) {
     if (path.starts_with("/provenance/timing/")) return "/results";
     return path == "/provenance/seed" ? "/parameters" : path.substr(0, path.find('/', 1));
@@ -167,6 +165,7 @@ class Salvager {
       has_header_ = true;
     }
     if (whole.contains("/frames") && reader.has("/frames/hash")) add_frames(reader);
+    if (reader.has("/own")) add_own(reader);
     if (whole.contains("/observables")) append(run_.series.observables, read_observables(reader));
     if (whole.contains("/steps")) append(run_.series.steps, read_steps(reader));
     if (whole.contains("/commands")) append(run_.series.commands, read_commands(reader));
@@ -210,6 +209,21 @@ class Salvager {
     return false;
   }
 
+  /// Adds the undamaged quantities of scripts; their rows are those of all frames.
+  void add_own(Reader& reader) try {
+    for (const std::string& path : own_data_sets(reader)) {
+      if (places_.size() == frames_before_ && is_as_written(reader, path)) {
+        own_.push_back(read_own_head(reader, path));
+        own_.back().values = read_own_values(reader, own_.back());
+      } else {
+        salvage_.lost.push_back(path + ": is not as it was written, or lacks frames; store it again");
+      }
+    }
+  } catch (const Error& error) {
+    own_.clear();
+    salvage_.lost.push_back(fmt::format("/own: {}", error.what()));
+  }
+
   /// Adds what was lost before an earlier repair to the record.
   void note_origin() {
     Facts& facts = run_.header.provenance;
@@ -228,11 +242,16 @@ class Salvager {
       return read_frame(readers_[places_[k].first], places_[k].second);
     };
     salvage_.file = packed_bytes(run_);
+    if (!own_.empty())
+      salvage_.file = with_own(
+          salvage_.file, name_,
+          {{'T', run_.frames}, {'N', run_.header.statics.radius.size()}, {'M', run_.contacts}}, own_);
     salvage_.kept = {fmt::format("{} of {}", run_.frames, counted(frames_before_, "frame")),
                      counted(run_.series.observables.size(), "row") + " of observables",
                      counted(run_.series.steps.size(), "step"),
                      counted(run_.series.commands.size(), "command")};
     if (!lacks_state(run_.header, run_.checkpoint)) salvage_.kept.emplace_back("the last state");
+    for (const OwnQuantity& own : own_) salvage_.kept.push_back(path_of(own));
   }
 
   std::string name_;
@@ -240,6 +259,7 @@ class Salvager {
   std::string prefix_;  ///< prefix of the lines about the current part
   std::deque<Reader> readers_;
   RunContent run_;
+  std::vector<OwnQuantity> own_;
   bool has_header_ = false, has_analysis_ = false;
   std::size_t frames_before_ = 0;
   std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< part and row of each kept frame
@@ -260,8 +280,7 @@ Salvage salvage_run(const std::string& run) {
   return {std::move(found["file"]), lines("kept"), lines("lost")};
 }
 
-/// Whether a run opens, so that its bytes match the hash of the file, and its contents match their own
-/// hashes.
+/// Whether a run opens, and its contents match their own hashes.
 bool is_whole(const std::string& run) try {
   const RunFile file = RunFile::open(run);
   for (std::size_t k = 0; file.has_frames() && k < file.all_frame_tilts().size(); ++k)

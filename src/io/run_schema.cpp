@@ -155,11 +155,16 @@ std::vector<DataSetField> last_fields() {
        "what it gives at each threshold for the values of the paper's chain, in the order of "
        "docs/reproduce.md and in deg and D; NaN if there is none"},
       {"/readings/at_most/*", int8, "F W", "1", "1 if the value is only an upper bound"},
+      {"/own/grains/*", float64, "T N", "by quantity",
+       "values of a script for grains; attributes `unit`, `label` and `kind`: number (NaN: none), flag (0 or "
+       "1), "
+       "cluster (a label, below 0: none)"},
+      {"/own/contacts/*", float64, "M", "by quantity",
+       "values of a script for contacts, in the rows of /contacts"},
   };
 }
 
-/// Returns the fields of /branch: the state from which a branch begins has the data sets of the last state,
-/// in a separate group.
+/// Returns the fields of /branch: its first state has the data sets of the last state.
 std::vector<DataSetField> branch_fields() {
   std::vector<DataSetField> fields = {
       {"/branch/run", text, "", "1", "the run that this one is a branch of, as the user named it"},
@@ -210,7 +215,7 @@ const std::vector<DataSetField>& run_schema() {
 
 bool is_by_frame(const DataSetField& field) {
   const bool has_rows = field.shape.starts_with('T') || field.shape.starts_with('M');
-  return has_rows && !field.path.starts_with("/analysis/");
+  return has_rows && !field.path.starts_with("/analysis/") && !field.path.starts_with("/own/");
 }
 
 DataSetField field_of(const std::string& path) {

@@ -78,6 +78,18 @@ Entry find_entry(Table table, std::string_view name, const char* what, const std
 constexpr const char* of_grains = "quantity of grains";
 constexpr const char* of_contacts = "quantity of contacts";
 
+/// Returns a quantity stored with the run; null if there is none of this name.
+const OwnQuantity* find_own(const Frame& frame, std::string_view name, bool is_of_grains) {
+  const auto found = std::ranges::find(frame.own, name, &OwnQuantity::name);
+  return found == frame.own.end() || found->of_grains != is_of_grains ? nullptr : &*found;
+}
+
+std::vector<std::string> with_own(std::vector<std::string> names, const Frame& frame, bool is_of_grains) {
+  for (const OwnQuantity& own : frame.own)
+    if (own.of_grains == is_of_grains) names.push_back(own.name);
+  return names;
+}
+
 }  // namespace
 
 MeasuredFrame::MeasuredFrame(Frame frame, RunStatics statics, analysis::AnalysisParameters parameters,
@@ -138,6 +150,7 @@ double MeasuredFrame::quantity(std::string_view name) {
 }
 
 std::vector<double> MeasuredFrame::grain_values(std::string_view name) {
+  if (const OwnQuantity* own = find_own(frame_, name, true)) return own->values;
   const std::vector<double>& factors = parameters_.threshold_factors;
   const auto [quantity, threshold] = find_entry(analysis::grain_quantities(), name, of_grains, factors);
   analysis::GrainSource source = {bed(),  nullptr, true, 0, judged().gamma, begin_ ? &*begin_ : nullptr,
@@ -153,6 +166,7 @@ std::vector<double> MeasuredFrame::grain_values(std::string_view name) {
 }
 
 std::vector<double> MeasuredFrame::contact_values(std::string_view name) const {
+  if (const OwnQuantity* own = find_own(frame_, name, false)) return own->values;
   return contact_quantity(name).values({bed()}, 0);
 }
 
@@ -170,63 +184,75 @@ std::vector<std::string> MeasuredFrame::quantities() const {
 }
 
 std::vector<std::string> MeasuredFrame::grain_quantities() const {
-  return names_of(analysis::grain_quantities(), parameters_.threshold_factors);
+  return with_own(names_of(analysis::grain_quantities(), parameters_.threshold_factors), frame_, true);
 }
 
 std::vector<std::string> MeasuredFrame::contact_quantities() const {
-  return names_of(analysis::contact_quantities(), {});
+  return with_own(names_of(analysis::contact_quantities(), {}), frame_, false);
 }
 
-const analysis::FrameQuantity& MeasuredFrame::grain_quantity(std::string_view name) const {
+analysis::FrameQuantity MeasuredFrame::grain_quantity(std::string_view name) const {
+  if (const OwnQuantity* own = find_own(frame_, name, true)) return analysis::row_of(*own);
   return find_entry(analysis::grain_quantities(), name, of_grains, parameters_.threshold_factors).quantity;
 }
 
-const analysis::FrameQuantity& MeasuredFrame::contact_quantity(std::string_view name) const {
+analysis::FrameQuantity MeasuredFrame::contact_quantity(std::string_view name) const {
+  if (const OwnQuantity* own = find_own(frame_, name, false)) return analysis::row_of(*own);
   return find_entry(analysis::contact_quantities(), name, of_contacts, {}).quantity;
 }
 
 namespace {
 
-/// Returns the plan of one map.
-pictures::MapPlan plan_of(const pictures::MapChoice& what, pictures::MapOptions options) {
+/// Returns the values with of_grains set by their number. Throws Error(usage) for an impossible number.
+OwnQuantity fitted(OwnQuantity own, const BedFrame& bed) {
+  const auto free_count = static_cast<std::size_t>(bed.statics.free_count);
+  const std::size_t grains = bed.frame.x.size(), contacts = bed.frame.contacts.fn.size(),
+                    count = own.values.size();
+  own.of_grains = count == free_count || count == grains;
+  if (!own.of_grains && count != contacts)
+    throw Error(ExitCode::usage,
+                "{} values: expected one for each of the {} free grains, of all {} grains, or of the {} "
+                "contacts that carry force",
+                count, free_count, grains, contacts);
+  return own;
+}
+
+/// Returns the plan of one map of a frame.
+pictures::MapPlan plan_of(const pictures::MapChoice& what, pictures::MapOptions options,
+                          std::span<const OwnQuantity> stored) {
   if (!options.crop.empty() || !options.traces.empty() || options.since)
     throw Error(ExitCode::usage,
                 "draw: crop, traces and since apply only to talus render, panel and animate");
-  if (const auto* own = std::get_if<pictures::OwnQuantity>(&what)) {
-    using Kind = pictures::OwnQuantity::Kind;
-    if (options.l_min || options.threshold || options.length)
-      throw Error(ExitCode::usage, "draw: l_min, threshold and length do not apply to values of your own");
-    // Maps that take the same options.
-    options.maps = {own->kind == Kind::number ? "pressure" : own->kind == Kind::flag ? "rigid" : "clusters"};
-  } else {
-    options.maps = {std::get<std::string>(what)};
-  }
-  return pictures::plan_maps(options);
+  const auto* const own = std::get_if<OwnQuantity>(&what);
+  options.maps = {own != nullptr ? own->name : std::get<std::string>(what)};
+  pictures::MapPlan plan = pictures::plan_maps(options, own != nullptr ? std::span(own, 1) : stored);
+  if (plan.maps[0].own) plan.maps[0].own->values.clear();  // the scale fits the frame
+  return plan;
 }
 
 }  // namespace
 
 render::FrameView MeasuredFrame::map(const pictures::MapChoice& what,
                                      const pictures::MapOptions& options) const {
-  pictures::MapPlan plan = plan_of(what, options);
+  pictures::MapPlan plan = plan_of(what, options, frame_.own);
   pictures::settle_theta_c(plan, theta_c_.value_or(not_known));
   const pictures::MapSettings& settings = plan.maps.at(0);
-  const Frame mapped = pictures::mapped_frame(frame_, statics_, settings.l_min);
+  Frame mapped = pictures::mapped_frame(frame_, statics_, settings.l_min);
+  if (const auto* own = std::get_if<OwnQuantity>(&what)) mapped.own = {fitted(*own, bed())};
   analysis::GrainSource frame = {{mapped, statics_}};
   if (begin_ && begin_->grain_count() == mapped.grain_count()) frame.earlier = &*begin_;
   frame.per_degree = false;
   pictures::MapExtent extent = pictures::bed_extent(statics_);
   pictures::extend(extent, frame);
-  const auto* own = std::get_if<pictures::OwnQuantity>(&what);
-  return own != nullptr ? pictures::own_map(frame, *own, settings, extent)
-                        : pictures::make_map(frame, settings, extent);
+  return pictures::make_map(frame, settings, extent);
 }
 
 render::Image MeasuredFrame::draw(const pictures::MapChoice& what,
                                   const pictures::MapOptions& options) const {
   render::FrameView view = map(what, options);
   render::Renderer renderer(render::make_context());
-  return renderer.draw(pictures::sheet_of_plan(std::move(view), plan_of(what, options), renderer.font()));
+  return renderer.draw(
+      pictures::sheet_of_plan(std::move(view), plan_of(what, options, frame_.own), renderer.font()));
 }
 
 MeasuredFrame measured_frame(const std::string& path, std::size_t k,

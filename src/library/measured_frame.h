@@ -49,14 +49,13 @@ class MeasuredFrame {
   std::vector<std::string> quantities() const;
   std::vector<std::string> grain_quantities() const;
   std::vector<std::string> contact_quantities() const;
-  /// Return the entry of a quantity in its table (analysis/frame_quantities.h), with its number of components
-  /// and its type.
-  const analysis::FrameQuantity& grain_quantity(std::string_view name) const;
-  const analysis::FrameQuantity& contact_quantity(std::string_view name) const;
+  /// Return the row of a quantity (analysis/frame_quantities.h), with its components and its type.
+  analysis::FrameQuantity grain_quantity(std::string_view name) const;
+  analysis::FrameQuantity contact_quantity(std::string_view name) const;
 
-  /// Draws a map as `talus render --map` does, or one of own values (pictures::own_map). Unless it is given,
-  /// theta_c is that of the run or the assumed one. Throws Error(usage) if an option is out of the range that
-  /// it has on the command line, or has no effect here, and Error(unavailable).
+  /// Draws a map as `talus render --map` does, or one of own values, on a scale that fits those of the frame.
+  /// Unless it is given, theta_c is that of the run or the assumed one. Throws Error(usage) if an option is
+  /// out of the range that it has on the command line, or has no effect here, and Error(unavailable).
   render::Image draw(const pictures::MapChoice& what, const pictures::MapOptions& options) const;
   /// Returns that map before it is drawn, for panels and movies.
   render::FrameView map(const pictures::MapChoice& what, const pictures::MapOptions& options) const;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analysis/contacts/contact_network.h"
+#include "base/errors.h"
 #include "base/text.h"
 #include "core/trigonometry.h"
 #include "pictures/layers.h"
@@ -14,8 +15,7 @@
 namespace talus::pictures {
 namespace {
 
-/// These colours differ from the orange and blue of the scale, from white, and from each other in a gray
-/// print.
+/// These differ from the orange and blue of the scale, from white, and, in gray, from each other.
 constexpr render::Colour gained_colour{0, 105, 60}, lost_colour{215, 30, 150};
 constexpr double gained_half_width = 0.10, lost_half_width = 0.10;  // D
 
@@ -75,8 +75,7 @@ void add_gained(std::vector<render::Line>& lines, const analysis::GrainSource& b
       line_between(x, y, x + way.x, y + way.y, gained_half_width * bed.statics.mean_diameter, gained_colour));
 }
 
-/// Adds lines from the centre of each grain to its edge, so that the space between them stays empty, however
-/// far apart they are.
+/// Adds lines from the centre of each grain to its edge, so that the space between them stays empty.
 void add_lost(std::vector<render::Line>& lines, const analysis::GrainSource& bed, const Frame& before,
               Index c) {
   const Index a = before.contacts.a[c], b = before.contacts.b[c];
@@ -133,6 +132,7 @@ std::vector<MapLayer> change_layers(const analysis::GrainSource& frame, const Ma
 
 render::FrameView make_change_map(const analysis::GrainSource& frame, const MapSettings& settings,
                                   const MapExtent& extent) {
+  if (settings.own) throw Error(ExitCode::usage, "the map {} shows no change", name_of(settings));
   render::FrameView view = compose_map(frame, settings, extent, change_layers(frame, settings, extent));
   view.coloured = true;
   return view;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,8 +55,7 @@ std::string caption_of(const Frame& frame, const MapSettings& settings);
 MapLayer scaled_layer(const std::string& title, const Scale& scale, std::vector<double> values,
                       render::Bar bar, bool outlines = false);
 
-/// Returns the map of these layers of a frame, with its furniture, as make_map does for the layers of its
-/// settings.
+/// Returns the map of these layers of a frame, with its furniture, as make_map does.
 render::FrameView compose_map(const analysis::GrainSource& frame, const MapSettings& settings,
                               const MapExtent& extent, std::vector<MapLayer> layers);
 
@@ -83,8 +83,7 @@ MapLayer dyed_layer(const analysis::GrainSource& bed, const ScaleChoice& choice,
 /// The colour of lines over grains that another layer fills; none if they are outlines.
 using OverColour = std::optional<render::Colour>;
 
-/// D: width of the border of lines over filled grains. It separates them from grains of any shade, also in a
-/// gray print.
+/// D: width of the border of lines over filled grains. It separates them from grains of any shade.
 inline constexpr double line_border = 0.06;
 /// Adds a white border of that width, m, to opaque lines, below all of them.
 void add_borders(std::vector<render::Line>& lines, double border);
@@ -102,8 +101,7 @@ MapLayer displacement_arrows(const analysis::GrainSource& bed, const MotionRange
 inline constexpr struct { double half_width, widest; } force_lines = {0.05, 6.0};
 /// D: the line of a contact with fully mobilised friction.
 inline constexpr struct { double length, half_width; } critical_lines = {0.7, 0.11};
-/// Returns a line from centre to centre of the bodies in contact, or to the contact point at a wall; half its
-/// width in m.
+/// Returns a line from centre to centre of the bodies in contact, or to the point at a wall; half_width in m.
 render::Line centre_line(const BedFrame& bed, Index contact, double half_width, const render::Colour& colour);
 MapLayer forces_layer(const analysis::GrainSource& bed, const OverColour& over);
 MapLayer critical_layer(const analysis::GrainSource& bed, const OverColour& over);
@@ -111,6 +109,14 @@ MapLayer critical_layer(const analysis::GrainSource& bed, const OverColour& over
 // How contacts support each grain; `over_grains` as above.
 MapLayer coordination_layer(const analysis::GrainSource& bed, const ScaleChoice& choice);
 MapLayer rigid_layer(const analysis::GrainSource& bed, bool over_grains);
+
+// own_map.cpp
+/// Returns the layer of settings.own. Its scale fits the values of the frame and those in the settings unless
+/// a range is chosen, and has 0 in its middle if they have both signs. Throws Error(bad_data) if the frame
+/// has no such values, and Error(usage) if a text cannot be set, or a range is invalid.
+MapLayer own_layer(const analysis::GrainSource& frame, const MapSettings& settings);
+/// Returns the smallest and the largest of the finite values, or nothing.
+std::vector<double> ends_of(std::span<const double> values);
 
 /// Returns the diameter over which coarse maps average, m. Throws Error(usage) if it exceeds the bed.
 double coarse_length(const analysis::GrainSource& bed, const MapSettings& settings);
@@ -130,8 +136,7 @@ struct MotionSpan {
 };
 MotionSpan motion_span(const analysis::GrainSource& bed);
 
-/// Counts of non-negative values in narrow classes, which give quantiles of any number of values in little
-/// memory.
+/// Counts of non-negative values in narrow classes, which give quantiles in little memory.
 class LogHistogram {
  public:
   /// Makes an empty histogram; values below `smallest` count as 0.

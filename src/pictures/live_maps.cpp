@@ -11,8 +11,7 @@
 namespace talus::pictures {
 namespace {
 
-/// Space above the bed when it begins to tilt, relative to its depth, so that pictures of one size contain
-/// all later frames.
+/// Space above the bed when it begins to tilt, relative to its depth: room for all later frames.
 constexpr double margin_above = 0.05;
 
 /// Largest number of frames that wait to be drawn.
@@ -21,11 +20,11 @@ constexpr std::size_t frames_waiting = 4;
 void refuse_pictures(const std::string& folder, const MapPlan& plan) {
   for (const std::string& name : names_in(folder))
     for (const MapSettings& map : plan.maps) {
-      if (name.starts_with(layers_name(map.layers) + "_") && name.ends_with(".png"))
+      if (name.starts_with(name_of(map) + "_") && name.ends_with(".png"))
         throw Error(ExitCode::cannot_create,
                     "{} already contains pictures of the map {}; choose another folder, or give --overwrite "
                     "to replace them and the run",
-                    folder, layers_name(map.layers));
+                    folder, name_of(map));
     }
 }
 

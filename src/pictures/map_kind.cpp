@@ -90,12 +90,14 @@ const MapEntry& entry_of(MapKind kind) { return entries()[static_cast<std::size_
 
 bool has(MapKind kind, Trait trait) { return (entry_of(kind).traits & trait) != 0; }
 
-MapKind layer_of(std::string_view name, std::string_view whole) {
+MapKind layer_of(std::string_view name, std::string_view whole, std::span<const OwnQuantity> own) {
   const auto found = std::ranges::find(entries(), name, &MapEntry::name);
   if (found != entries().end()) return found->kind;
-  throw Error(
-      ExitCode::usage, "map '{}': expected one of {}, or two of them joined by +, such as gamma+forces{}",
-      visible_word(whole), joined(entries(), ", ", &MapEntry::name), did_you_mean(name, names_of(entries())));
+  std::vector<std::string> names = names_of(entries());
+  for (const OwnQuantity& quantity : own) names.push_back(quantity.name);
+  throw Error(ExitCode::usage,
+              "map '{}': expected one of {}, or two of them joined by +, such as gamma+forces{}",
+              visible_word(whole), joined(names, ", "), did_you_mean(name, names));
 }
 
 }  // namespace
@@ -139,11 +141,11 @@ bool shows(const MapLayers& layers, MapKind kind) { return std::ranges::count(la
 
 bool any_layer(const MapLayers& layers, bool (*has)(MapKind)) { return std::ranges::any_of(layers, has); }
 
-MapLayers map_layers(std::string_view name) {
+MapLayers map_layers(std::string_view name, std::span<const OwnQuantity> own) {
   MapLayers layers;
   for (std::string_view rest = name;;) {
     const auto plus = rest.find('+');
-    layers.push_back(layer_of(rest.substr(0, plus), name));
+    layers.push_back(layer_of(rest.substr(0, plus), name, own));
     if (plus == std::string_view::npos) break;
     rest.remove_prefix(plus + 1);
   }

@@ -1,6 +1,5 @@
 #pragma once
-/// The maps and their names: those with their own drawing rules, and one for each quantity of grains whose
-/// table row has a MapRule.
+/// The maps and their names: those with rules of their own, and one for each quantity with a MapRule.
 
 #include <span>
 #include <string>
@@ -66,8 +65,7 @@ bool shows_gamma(MapKind kind);
 bool is_coarse(MapKind kind);
 /// Whether it is measured from an earlier frame.
 bool needs_reference(MapKind kind);
-/// Whether its range fits the frames that are drawn, as for velocities and quantities measured from an
-/// earlier frame.
+/// Whether its range fits the frames that are drawn, as for velocities and motion.
 bool fits_frames(MapKind kind);
 
 /// One map, or two overlaid maps, the lower one first.
@@ -78,8 +76,8 @@ bool shows(const MapLayers& layers, MapKind kind);
 bool any_layer(const MapLayers& layers, bool (*has)(MapKind));
 
 /// Returns the layers of a name: "gamma", or "gamma+forces". Throws Error(usage) for an unknown name, listing
-/// the valid ones, for more than two layers, and for a repeated layer.
-MapLayers map_layers(std::string_view name);
+/// the valid ones and those of scripts, for more than two layers, and for a repeated layer.
+MapLayers map_layers(std::string_view name, std::span<const OwnQuantity> own = {});
 /// Returns "gamma+forces", which is also used in file names.
 std::string layers_name(const MapLayers& layers);
 

@@ -6,20 +6,9 @@
 #include <variant>
 #include <vector>
 
-namespace talus::pictures {
+#include "core/snapshot.h"
 
-/// Values that a program has computed for the free grains, for all grains, or for the contacts of a frame
-/// that carry force.
-struct OwnQuantity {
-  enum class Kind {
-    number,   ///< drawn on a scale; NaN: no value
-    flag,     ///< 0 or 1, drawn in two tones
-    cluster,  ///< label, which has the same colour in all pictures; below 0: in no cluster
-  };
-  std::vector<double> values;
-  Kind kind = Kind::number;
-  std::string label = "values", unit{};  ///< rich texts, such as "v_y" and "m/s"
-};
+namespace talus::pictures {
 
 /// Content of a map: a name of `talus render --map`, or values of one's own.
 using MapChoice = std::variant<std::string, OwnQuantity>;

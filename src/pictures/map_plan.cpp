@@ -10,6 +10,8 @@
 #include "base/errors.h"
 #include "base/text.h"
 #include "core/trigonometry.h"
+#include "io/packed_file.h"
+#include "pictures/layers.h"
 #include "render/layout.h"
 
 namespace talus::pictures {
@@ -104,7 +106,7 @@ void refuse_idle_options(const MapOptions& options, const MapPlan& plan) {
   if (!options.range.empty() && plan.maps.size() > 1)
     refuse("--range: its unit depends on the map; request one map at a time");
   if (!options.range.empty() && !has_bar(plan.maps[0].layers))
-    refuse(fmt::format("--range: the map {} has no bar", layers_name(plan.maps[0].layers)));
+    refuse(fmt::format("--range: the map {} has no bar", name_of(plan.maps[0])));
   if (options.length && !any_layer(plan, is_coarse))
     refuse("length applies only to the maps " + maps_with(is_coarse));
   if (options.since && !any_layer(plan, needs_reference))
@@ -153,7 +155,7 @@ void choose_colours(std::string_view words, MapPlan& plan) {
     if (++seen > 1)
       refuse(fmt::format("--colours {}: expected one colour map for bars, and one for clusters", words));
     if (palette != cluster_palettes.end()) {
-      if (!shows(plan, MapKind::clusters))
+      if (std::ranges::none_of(plan.maps, has_palette))
         refuse(fmt::format("--colours {} applies only to the map clusters", word));
       for (MapSettings& map : plan.maps) map.palette = *palette;
       continue;
@@ -169,13 +171,46 @@ void choose_colours(std::string_view words, MapPlan& plan) {
 
 }  // namespace
 
-MapPlan plan_maps(const MapOptions& options) {
+std::vector<OwnQuantity> stored_maps(const io::RunFile& run) {
+  std::vector<OwnQuantity> all = io::read_own(run);
+  const auto grains = static_cast<std::size_t>(run.header().statics.radius.size()),
+             free_count = static_cast<std::size_t>(run.header().statics.free_count);
+  for (OwnQuantity& own : all) {
+    for (std::size_t k = 0; own.of_grains && k < own.values.size(); ++k)
+      if (k % grains >= free_count) own.values[k] = not_known;
+    own.values = ends_of(own.values);
+  }
+  return all;
+}
+
+void choose_map(MapSettings& map, const std::string& name, std::span<const OwnQuantity> own) {
+  const std::size_t plus = std::min(name.find('+'), name.size());
+  const auto found = std::ranges::find(own, name.substr(0, plus), &OwnQuantity::name);
+  map.own = found == own.end() ? std::nullopt : std::optional(*found);
+  if (!map.own) {
+    map.layers = map_layers(name, own);
+    return;
+  }
+  const MapKind like = map.own->kind == OwnQuantity::Kind::number ? MapKind::pressure : MapKind::rigid;
+  map.layers = map_layers(std::string(map_name(like)) + name.substr(plus), own);
+}
+
+MapPlan plan_maps(const MapOptions& options, const std::string& path) {
+  const auto is_of_talus = [](const std::string& name) {
+    return std::ranges::count(map_kinds(), name.substr(0, name.find('+')), map_name) > 0;
+  };
+  if (std::ranges::all_of(options.maps, is_of_talus) || io::run_presence(path) == io::RunPresence::none)
+    return plan_maps(options);
+  return plan_maps(options, stored_maps(io::RunFile::open(path)));
+}
+
+MapPlan plan_maps(const MapOptions& options, std::span<const OwnQuantity> own) {
   check_numbers(options);
   MapPlan plan;
   const MapSettings common = common_settings(options);
   std::set<std::string> names;
   for (const std::string& name : options.maps) {
-    plan.maps.emplace_back(common).layers = map_layers(name);
+    choose_map(plan.maps.emplace_back(common), name, own);
     if (!names.insert(name).second) refuse(fmt::format("--map: {} is given twice", name));
   }
   if (plan.maps.empty()) refuse("no map is requested; expected one of " + list_of_maps());

@@ -2,9 +2,11 @@
 /// The plan of the maps of a run: checked options.
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "io/run_file.h"
 #include "pictures/map_options.h"
 #include "pictures/maps.h"
 #include "pictures/traces.h"
@@ -32,9 +34,18 @@ struct MapPlan {
   double page_width() const { return maps.empty() ? 0.0 : maps[0].printed / 100.0; }
 };
 
-/// Makes a plan. Throws Error(usage) if an option names something that does not exist or is out of its range,
-/// or two exclude each other.
-MapPlan plan_maps(const MapOptions& options);
+/// Makes a plan, in which quantities of scripts are maps too. Throws Error(usage) if an option names
+/// something that does not exist or is out of its range, or two exclude each other.
+MapPlan plan_maps(const MapOptions& options, std::span<const OwnQuantity> own = {});
+/// Makes a plan for the run at `path`, which is opened if it exists and a map is not one of Talus. Throws
+/// also the errors of RunFile::open.
+MapPlan plan_maps(const MapOptions& options, const std::string& path);
+
+/// Returns the quantities stored with a run as own quantities of MapSettings, with the ends of their scales.
+std::vector<OwnQuantity> stored_maps(const io::RunFile& run);
+/// Sets the layers of a map by its name: one or two maps of Talus, or one of these quantities, alone or below
+/// a map. Throws the errors of map_layers.
+void choose_map(MapSettings& map, const std::string& name, std::span<const OwnQuantity> own);
 
 /// Whether any layer of any map has the property.
 bool any_layer(const MapPlan& plan, bool (*has)(MapKind));

@@ -88,8 +88,9 @@ render::Colour colour_over(const MapSettings& settings, std::size_t k) {
   const MapKind kind = settings.layers[k];
   const render::ColourMap own = is_signed(kind) ? render::ColourMap::diverging : render::ColourMap::gray;
   const render::ColourMap colours = choice_of(settings, k).colours.value_or(own);
-  const bool light = kind == MapKind::clusters || kind == MapKind::rigid ||
-                     render::one_way(colours) == render::ColourMap::diverging;
+  const bool has_hues = k == 0 && settings.own ? settings.own->kind == OwnQuantity::Kind::cluster
+                                               : kind == MapKind::clusters || kind == MapKind::rigid;
+  const bool light = has_hues || render::one_way(colours) == render::ColourMap::diverging;
   return light ? render::black : render::Colour{255, 60, 130};
 }
 
@@ -199,6 +200,15 @@ void print_letters(render::FrameView& view, double width, double points) {
   view.max_letters = view.letters / smallest;
 }
 
+std::string name_of(const MapSettings& map) {
+  if (!map.own) return layers_name(map.layers);
+  return map.own->name + (map.layers.size() > 1 ? "+" + layers_name({map.layers[1]}) : "");
+}
+
+bool has_palette(const MapSettings& map) {
+  return shows(map.layers, MapKind::clusters) || (map.own && map.own->kind == OwnQuantity::Kind::cluster);
+}
+
 bool has_bar(const MapLayers& layers) {
   return has_bar(layers, 0) || (layers.size() > 1 && has_bar(layers, 1));
 }
@@ -208,6 +218,10 @@ render::FrameView make_map(const analysis::GrainSource& frame, const MapSettings
   check_theta_c(settings);
   std::vector<MapLayer> layers;
   for (std::size_t k = 0; k < settings.layers.size(); ++k) {
+    if (k == 0 && settings.own) {
+      layers.push_back(own_layer(frame, settings));
+      continue;
+    }
     layers.push_back(make_layer(frame, settings, extent, k, seen));
     for (render::Bar& bar : layers.back().legend.bars) name_reading(settings.layers[k], frame, bar);
   }
@@ -227,9 +241,8 @@ render::FrameView compose_map(const analysis::GrainSource& frame, const MapSetti
   view.furniture = settings.furniture;
   view.transparent = settings.transparent;
   if (settings.printed > 0.0) print_letters(view, settings.printed, settings.points);
-  // Set even if no cluster in this frame has a colour yet, because all frames of a movie need the same number
-  // of channels.
-  view.coloured = shows(settings.layers, MapKind::clusters) || shows(settings.layers, MapKind::rigid);
+  // Even if no cluster has a colour yet: all frames of a movie have the same number of channels.
+  view.coloured = has_palette(settings) || (shows(settings.layers, MapKind::rigid) && !settings.own);
   view.tilt = frame.frame.tilt;
   if (settings.turned) {
     view.turn = std::max(0.0, frame.frame.tilt);

@@ -40,13 +40,11 @@ struct MotionRanges {
 };
 
 /// Quantiles that define these ranges: the fractions of grains below the ends of a logarithmic scale, such as
-/// that of displacement; and the fraction of grains within the ends of a signed scale, such as that of
-/// rotation.
+/// that of displacement; and that within the ends of a signed scale, such as that of rotation.
 inline constexpr struct { double low, high; } size_shares = {0.05, 0.99};
 inline constexpr double signed_share = 0.95;
 
-/// Returns the range of a map of motion (fits_frames) if no other is fitted or chosen: from the creep of a
-/// bed at rest to an avalanche.
+/// Returns the range of a map of motion if no other is fitted or chosen: from creep to an avalanche.
 ScaleRange fixed_motion_range(MapKind kind, bool per_degree);
 
 /// deg: the scale of maps while the slope has not failed, unless another is requested.
@@ -54,7 +52,10 @@ inline constexpr double assumed_theta_c = 20.0;
 
 /// The settings of the maps of a run, the same for all of its frames.
 struct MapSettings : OverloadRule {
-  MapLayers layers;                          ///< one map, or two: the second is drawn over the first
+  MapLayers layers;  ///< one map, or two: the second is drawn over the first
+  /// A quantity of scripts drawn in place of the first layer, which is a map with the same options; its
+  /// values are the ends of the default scale, if any.
+  std::optional<OwnQuantity> own;
   std::optional<render::ColourMap> colours;  ///< colours of the first layer with a bar; not set: its default
   ClusterPalette palette = ClusterPalette::muted;
   std::optional<double> range_low;  ///< range of the bar of that layer, in the unit of its title
@@ -70,6 +71,11 @@ struct MapSettings : OverloadRule {
   double points = 8.0;   ///< size of its letters at that width
   bool operator==(const MapSettings&) const = default;
 };
+
+/// Returns the name of a map, which is also used in file names: "gamma+forces".
+std::string name_of(const MapSettings& map);
+/// Whether its clusters or labels have the colours of a palette.
+bool has_palette(const MapSettings& map);
 
 /// The part of the bed that the maps of a run show, so that all have the same size. m, frame of the bed.
 struct MapExtent {
@@ -119,14 +125,7 @@ render::FrameView make_map(const analysis::GrainSource& frame, const MapSettings
 /// Throws Error(usage), which names `what` it is, if a text has letters that pictures lack.
 void check_text(const std::string& what, const std::string& text);
 
-/// Returns a map of one's own values, of which settings.layers has no part. The scale fits the values unless
-/// a range is chosen; it has 0 in its middle if they have both signs. Throws Error(usage) if the number of
-/// values is none of those of OwnQuantity, a text cannot be set, or a range is invalid.
-render::FrameView own_map(const analysis::GrainSource& frame, const OwnQuantity& own,
-                          const MapSettings& settings, const MapExtent& extent);
-
-/// Sets the letters of a view that is printed at this width (cm) to this size in points, and to at least 7/8
-/// of it.
+/// Sets the letters of a view printed at this width (cm) to this size in points, at least 7/8 of it.
 void print_letters(render::FrameView& view, double width, double points);
 
 /// Whether a map has a bar, to which `colours`, `range_low` and `range_high` apply.

@@ -1,9 +1,9 @@
-/// A map of values that a program has computed.
+/// A map of values that a script has computed.
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
-#include <limits>
+#include <iterator>
 #include <set>
 
 #include "base/errors.h"
@@ -16,16 +16,13 @@ namespace {
 
 using Kind = OwnQuantity::Kind;
 
-/// Returns the range of the values, with 0 in its middle if they have both signs.
+/// Returns the range of the values and of those in the settings, about 0 if they have both signs.
 Scale scale_of(const OwnQuantity& own, const MapSettings& settings) {
   constexpr double largest = 1e100;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const double value : own.values)
-    if (std::isfinite(value)) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  if (low > high) low = high = 0.0;  // no value
+  std::vector<double> ends = ends_of(own.values);
+  ends.insert(ends.end(), settings.own->values.begin(), settings.own->values.end());
+  double low = ends.empty() ? 0.0 : std::ranges::min(ends),
+         high = ends.empty() ? 0.0 : std::ranges::max(ends);
   const bool has_both_signs = low < 0.0 && high > 0.0;
   if (has_both_signs) {
     high = std::max(high, -low);
@@ -75,21 +72,24 @@ void check_text(const std::string& what, const std::string& text) {
         visible_word(text));
 }
 
-render::FrameView own_map(const analysis::GrainSource& frame, const OwnQuantity& own,
-                          const MapSettings& settings, const MapExtent& extent) {
+std::vector<double> ends_of(std::span<const double> values) {
+  std::vector<double> finite;
+  std::ranges::copy_if(values, std::back_inserter(finite), [](double value) { return std::isfinite(value); });
+  if (finite.empty()) return {};
+  const auto [low, high] = std::ranges::minmax(finite);
+  return {low, high};
+}
+
+MapLayer own_layer(const analysis::GrainSource& frame, const MapSettings& settings) {
+  const auto found = std::ranges::find(frame.frame.own, settings.own->name, &OwnQuantity::name);
+  if (found == frame.frame.own.end())
+    throw Error(ExitCode::bad_data, "the frame has no values of {}", settings.own->name);
+  const OwnQuantity& own = *found;
   check_text("label", own.label);
   check_text("unit", own.unit);
-  const std::size_t free_count = static_cast<std::size_t>(frame.statics.free_count),
-                    grains = frame.frame.x.size(), contacts = frame.frame.contacts.fn.size(),
-                    count = own.values.size();
-  const bool of_grains = count == free_count || count == grains;
-  if (!of_grains && count != contacts)
-    throw Error(ExitCode::usage,
-                fmt::format("{} values: expected one for each of the {} free grains, of all {} grains, or of "
-                            "the {} contacts that carry force",
-                            count, free_count, grains, contacts));
+  const bool of_grains = own.of_grains;
   OwnQuantity shown = own;
-  if (of_grains) shown.values.resize(free_count);
+  if (of_grains) shown.values.resize(static_cast<std::size_t>(frame.statics.free_count));
   const Scale scale = scale_of(shown, settings);
   const std::vector<render::Colour> palette = cluster_palette(settings.palette);
   MapLayer layer;
@@ -112,6 +112,8 @@ render::FrameView own_map(const analysis::GrainSource& frame, const OwnQuantity&
   if (own.kind == Kind::number) {
     layer.legend.bars = {bar_of(scale, own.unit.empty() ? own.label : own.label + " (" + own.unit + ")")};
     if (of_grains) layer.legend.bars[0].values = shown.values;
+    layer.legend.bars[0].symbol = own.label;
+    layer.legend.bars[0].unit = own.unit;
     if (!is_complete && of_grains) swatch(outline_style(), "no value");
   } else if (own.kind == Kind::flag) {
     swatch({render::black, render::black}, own.label);
@@ -119,11 +121,7 @@ render::FrameView own_map(const analysis::GrainSource& frame, const OwnQuantity&
   } else if (!is_complete && of_grains) {
     swatch(outline_style(), "in none");
   }
-  std::vector<MapLayer> layers;
-  layers.push_back(std::move(layer));
-  render::FrameView view = compose_map(frame, settings, extent, std::move(layers));
-  view.coloured = own.kind == Kind::cluster;  // in all pictures of a movie
-  return view;
+  return layer;
 }
 
 }  // namespace talus::pictures

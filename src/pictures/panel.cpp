@@ -29,8 +29,7 @@ std::string extract_common_beginning(const std::vector<std::string*>& titles) {
   return without_comma(common);
 }
 
-/// Removes from the captions, and returns, everything after the first part: the angle of repose, which is the
-/// same for the run.
+/// Removes from the captions, and returns, all but the first part: the angle of repose.
 std::string take_rest(Rows& maps) {
   std::string rest;
   for (std::vector<render::FrameView>& row : maps)
@@ -113,8 +112,7 @@ Rows grouped(const Rows& maps, std::size_t side_by_side) {
   return rows;
 }
 
-/// Returns the first frame, the last before failure or, if the slope has not failed, of the run, and that
-/// halfway between them.
+/// Returns the first frame, the last before failure or of the run, and that halfway between them.
 FrameChoice usual_frames(const DrawnRun& run) {
   const std::vector<double>& tilts = run.file.frame_tilts();
   const double theta_c = run.theta_c();
@@ -128,8 +126,7 @@ FrameChoice usual_frames(const DrawnRun& run) {
 std::string panel_source(const PictureSeries& series, const FrameChoice& choice) {
   const std::string angles =
       joined(choice, ", ", [&](std::size_t k) { return tilt_text(series.seen_frames.instants[k].tilt); });
-  const std::string maps =
-      joined(series.plan.maps, " ", [](const MapSettings& map) { return layers_name(map.layers); });
+  const std::string maps = joined(series.plan.maps, " ", name_of);
   return picture_source(series.path, fmt::format("frames at {} deg, {}", angles, maps));
 }
 

@@ -30,7 +30,7 @@ std::string picture_name(const PictureSeries& series, std::size_t k, std::size_t
                          const std::string& ending) {
   const FrameInstant &instant = series.seen_frames.instants[k],
                      &highest = series.seen_frames.instants[series.seen_frames.highest];
-  const std::string name = layers_name(series.plan.maps[map].layers);
+  const std::string name = name_of(series.plan.maps[map]);
   if (series.goes_by_time) return fmt::format("{}_{:05}_{}.{}", name, k, angle_name(instant.tilt, 2), ending);
   if (k <= series.seen_frames.highest)
     return fmt::format("{}_{}.{}", name, angle_name(instant.tilt, decimals), ending);
@@ -106,7 +106,7 @@ void draw_files(DrawnRun& run, const std::vector<PictureFile>& files, const std:
 std::string picture_source(const PictureSeries& series, std::size_t k, std::size_t map) {
   return picture_source(series.path,
                         fmt::format("frame at {} deg, {}", tilt_text(series.seen_frames.instants[k].tilt),
-                                    layers_name(series.plan.maps[map].layers)));
+                                    name_of(series.plan.maps[map])));
 }
 
 std::string picture_source(const std::string& run, const std::string& shown) {

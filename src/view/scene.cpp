@@ -195,7 +195,7 @@ std::string render_command_line(const RenderRequest& shown) {
     add("--set", fmt::format("{}={}", key, value));
   };
   const auto flag = [&line](const std::string& option) { line += " " + option; };
-  add("--map", pictures::layers_name(layers));
+  add("--map", pictures::name_of(settings));
   add("--at", shown.frame ? fmt::format("frame{}", *shown.frame) : number(degrees(shown.tilt)));
   if (shown.in_flow) flag("--flow");
   const bool by_theta_c = pictures::any_layer(layers, pictures::needs_theta_c);

@@ -60,8 +60,7 @@ struct View {
   const render::Bar* bar() const;
   /// Returns the part of the bed that map(aspect) shows, m.
   pictures::MapExtent part(double aspect) const;
-  /// Returns the aspect (width / height) of a picture that just holds the entire bed as it is shown, turned
-  /// or not.
+  /// Returns the aspect (width / height) of a picture that just holds the bed as it is shown.
   double bed_aspect() const;
   /// Returns the settings of the map, completed by the run.
   pictures::MapSettings settings() const;
@@ -70,13 +69,11 @@ struct View {
   /// Returns the range that fits the values of a map of motion in the frame shown, that of `talus render`;
   /// nothing for other maps, or if nothing has moved.
   std::optional<pictures::ScaleRange> fitting_range() const;
-  /// Returns the properties of state.selected in the frame shown; null if nothing is selected. Computed once
-  /// for a frame and a selection.
+  /// Returns the properties of state.selected in the frame shown; null if nothing is selected. Computed once.
   const Inspection* inspection() const;
 
  private:
-  /// Returns the frame that is subtracted from the frame shown, or from which motions are measured; null if
-  /// there is none.
+  /// Returns the frame that is subtracted, or from which motions are measured; null if there is none.
   std::shared_ptr<const Frame> reference() const;
   const analysis::Clusters& clusters() const;
   const render::FrameView& whole_map(const pictures::MapExtent& shown, bool dark) const;
@@ -134,8 +131,7 @@ class ViewModel {
   /// Returns whether a live run shows a recorded frame.
   bool shows_recorded_frame() const { return held_; }
   void follow();
-  /// Returns the frame nearest to an angle in degrees, or "repose"; throws as frames_at does, and
-  /// Error(usage) for a live run.
+  /// Returns the frame nearest to an angle in degrees, or "repose"; throws as frames_at does.
   std::size_t frame_at_angle(const std::string& angle) const;
   void go_to(Landmark landmark);  ///< does nothing if the run has no such place
   std::optional<std::size_t> place_of(Landmark landmark) const;
@@ -155,12 +151,10 @@ class ViewModel {
   double theta_c() const;
   bool theta_c_known() const { return theta_c_.has_value(); }
   double mean_diameter() const { return statics().mean_diameter; }
-  /// Returns the steps of a live run so far, or those of a replay, the last one being that of the frame
-  /// shown.
+  /// Returns the steps of the run up to the frame shown.
   SolvedSteps solved_steps() const;
 
-  /// Moves the camera, limited to the bed and to a few grains. Returns false if the part of the bed shown
-  /// does not change.
+  /// Moves the camera, limited to the bed and to a few grains. Returns whether the part shown changes.
   bool set_camera(const ViewCamera& camera);
   /// Zooms by a factor about a point (m), which keeps its position in the picture. Returns as set_camera().
   bool zoom(double factor, double x, double y);
@@ -168,8 +162,7 @@ class ViewModel {
   // Selection: state.selected is the inspected grain, state.selecting the rest of the selection.
   /// Selects one grain, or none, and nothing else.
   void select(std::optional<Index> grain);
-  /// Selects these grains, sorted by id; a single one as above. The inspected grain stays if it is among
-  /// them.
+  /// Selects these grains, sorted by id; a single one as above. The inspected grain stays if among them.
   void select(std::vector<Index> grains);
   void select(const ContactKey& contact);
   /// Returns all selected grains that exist in the frame shown, sorted by id.
@@ -198,6 +191,9 @@ class ViewModel {
   PlotMarks plot_marks() const;
   /// Goes to the frame nearest to a place on that axis (deg or s).
   void go_to_place(double x);
+
+  /// Returns the stored_maps of a replay.
+  const std::vector<OwnQuantity>& own_maps() const { return own_maps_; }
 
   /// Returns "talus render RUN --map ... --at 12.25 ...", which draws the picture shown. Empty for a live run
   /// that is not recorded.
@@ -260,6 +256,7 @@ class ViewModel {
   std::shared_ptr<Replay> replay_;
   std::size_t shown_before_ = 0;  ///< previous frame, which gives the direction of playback
   std::optional<analysis::Analysis> analysis_;
+  std::vector<OwnQuantity> own_maps_;
 
   Recording recording_;
 

@@ -71,6 +71,7 @@ void ViewModel::open_replay() {
   theta_c_ = find_value(file.checkpoint().results, "theta_c");
   if (theta_c_ && !std::isfinite(*theta_c_)) theta_c_.reset();  // the run has not failed
   analysis_ = read_usable_analysis(file);
+  own_maps_ = pictures::stored_maps(file);
   rows_ = file.observables();
   steps_ = file.steps();
   plot_rows();
@@ -100,6 +101,8 @@ void ViewModel::start_live(const std::string& next_output, bool overwrite) {
   recording_.output = next_output;
   recording_.seed = scenario_.seed;
   pictures_.seen_frames = {};
+  own_maps_.clear();
+  state.map.own.reset();
   pictures_.goes_by_time = !scenario_.tilt.program.empty();
   frames_ = live_ = std::move(next);
   pictures_.run.statics = all_statics_ = live_->statics();

@@ -1,5 +1,4 @@
-/// Results for the frame shown: its maps, and the selection with its properties; curves and events of the
-/// run.
+/// Results for the frame shown: its maps and the selection; curves and events of the run.
 
 #include <algorithm>
 #include <cmath>
@@ -64,8 +63,12 @@ const Inspection* View::inspection() const {
 
 View ViewModel::second() {
   View view{*this, state.map, state.second_view.minus, second_map_, true};
-  if (!state.second_view.layers.empty()) view.chosen.layers = state.second_view.layers;
-  if (view.minus || view.chosen.layers != state.map.layers) {  // the range is of another map
+  if (!state.second_view.layers.empty()) {
+    view.chosen.layers = state.second_view.layers;
+    view.chosen.own.reset();
+  }
+  if (view.minus || view.chosen.layers != state.map.layers ||
+      view.chosen.own != state.map.own) {  // the range is of another map
     view.chosen.range_low.reset();
     view.chosen.range_high.reset();
   }

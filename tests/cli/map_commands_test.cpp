@@ -5,6 +5,8 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "base/hash.h"
+#include "io/packed_file.h"
 #include "pictures.h"
 #include "support/commands.h"
 #include "support/runs.h"
@@ -120,6 +122,34 @@ TEST_F(MapCommands, pictures_are_named_by_layers_and_angle) {
                                                   "displacement_001.00.png", "displacement_001.50.png"}));
   EXPECT_TRUE(has_all(folder_.text("maps/gamma+forces_001.00.png"),
                       {"bed.h5, frame at 1.000 deg, gamma+forces", "Software"}));
+}
+
+TEST_F(MapCommands, values_stored_with_the_run_are_drawn_listed_and_exported) {
+  make_run();
+  const std::string path = folder_.path("bed.h5");
+  const io::RunFile run = io::RunFile::open(path);
+  const std::size_t grains = run.header().statics.radius.size();
+  OwnQuantity slip{{}, OwnQuantity::Kind::number, "v_s", "m/s", "slip", true},
+      marked{{}, OwnQuantity::Kind::flag, "marked", "", "marked", false};
+  for (std::size_t k = 0; k < 4 * grains; ++k) slip.values.push_back(0.5 * static_cast<double>(k));
+  marked.values.assign(run.contact_count(), 1.0);
+  for (const OwnQuantity& own : {slip, marked})
+    io::store_own(path, own, hash_text(state_hash(run.checkpoint().world)));
+  ASSERT_TRUE(ends(talus({"render", "bed.h5", "--map", "slip,marked", "--at", "0", "-o", "maps"}), 0));
+  EXPECT_EQ(files("maps"), (std::set<std::string>{"slip_000.00.png", "marked_000.00.png"}));
+  EXPECT_TRUE(
+      ends(talus({"panel", "bed.h5", "--map", "slip,gamma", "--set", "gamma_c=0.3"}), 0, {"3 angles"}));
+  EXPECT_TRUE(ends(talus({"render", "bed.h5", "--map", "slap"}), 64, {"gamma, ", "did you mean 'slip'?"}));
+  EXPECT_TRUE(ends(talus({"render", "bed.h5", "--map", "slip", "--set", "length=5"}), 64, {"coarse"}));
+  EXPECT_TRUE(ends(talus({"info", "bed.h5"}), 0, {"slip", "v_s in m/s, of grains", "marked, of contacts"}));
+  EXPECT_TRUE(ends(talus({"export", "bed.h5", "--to", "csv", "--at", "0", "-o", "csv"}), 0));
+  const std::string table = folder_.text("csv/grains.csv");
+  EXPECT_TRUE(has(table.substr(0, table.find('\n')), ",slip (m/s)"));
+  EXPECT_TRUE(has(table, ",0.5\n")) << "grain 1";
+  EXPECT_TRUE(has_all(folder_.text("csv/contacts.csv"), {",marked\n", ",1\n"}));
+  EXPECT_TRUE(ends(talus({"check", "bed.h5"}), 0));
+  EXPECT_TRUE(ends(talus({"analyze", "bed.h5", "--set", "gamma_c=0.3"}), 0));
+  EXPECT_TRUE(ends(talus({"info", "bed.h5"}), 0, {"slip"})) << "kept with the analysis";
 }
 
 TEST_F(MapCommands, every_map_and_option_draws) {

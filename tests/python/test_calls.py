@@ -48,6 +48,8 @@ CALLS = {
     "run[]": (lambda run, x: run[x], NOTHING),
     "unit": (lambda run, x: run.unit(x), NOTHING),
     "meaning": (lambda run, x: run.meaning(x), NOTHING),
+    "store name": (lambda run, x: run.store(x, []), NOTHING + ["Slip", "a b", "gamma", "velocity_x", "a" * 41]),
+    "store values": (lambda run, x: run.store("slip", x), NOTHING),
     "table[]": (lambda run, x: run.observables[x], NOTHING),
     "table.unit": (lambda run, x: run.steps.unit(x), NOTHING),
     "table.meaning": (lambda run, x: run.steps.meaning(x), NOTHING),

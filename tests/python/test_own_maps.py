@@ -93,6 +93,47 @@ def test_wrong_values_are_refused(frame, live, what, options, kind, text):
         assert isinstance(caught.value, talus.Error)
 
 
+def test_values_are_stored_with_their_run(frame, tmp_path):
+    path = tmp_path / "run.h5"
+    shutil.copy(frame.run.path, path)
+    run = talus.open(path)
+    grains, count = len(run.id), len(run.frames)
+    number = [np.arange(grains) + 0.5 * k for k in range(count)]
+    label = [np.where(each.free, 2, -1)[: run.free.sum()] for each in run.frames]
+    flag = [each.contacts.status == 2 for each in run.frames]
+    run.store("slip", number, label="v_s", unit="m/s")
+    run.store("patch", label)
+    run.store("slides", flag, label="sliding contacts")
+    assert run.own == ["slides", "patch", "slip"] == talus.open(path).own
+    for k, each in enumerate(run.frames):
+        np.testing.assert_array_equal(each.grains["slip"], number[k])
+        np.testing.assert_array_equal(each.grains["patch"], np.where(each.free, 2, -1))
+        np.testing.assert_array_equal(each.contacts["slides"], flag[k])
+    assert each.grains["patch"].dtype.kind == "i" and each.contacts["slides"].dtype == bool
+    assert "slip" in each.grains.quantities and "slides" in each.contacts.quantities
+    np.testing.assert_array_equal(run["own/grains/slip"], number)
+    np.testing.assert_array_equal(run.read_frame("own/contacts/slides", 3), flag[3])
+    np.testing.assert_array_equal(each.draw("slip"), each.draw(number[-1], label="v_s", unit="m/s"))
+    with pytest.raises(OSError, match="overwrite=True"):
+        run.store("slip", number)
+    run.store("slip", [-each for each in number], overwrite=True)
+    np.testing.assert_array_equal(run.frames[2].grains["slip"], -number[2])
+    assert run.own == ["slides", "patch", "slip"]
+    before = path.read_bytes()
+    for name, values, kind, text in [
+            ("Slip", number, ValueError, "lower-case"), ("gamma", number, ValueError, "choose another"),
+            ("velocity_x", number, ValueError, "choose another"), ("lc_1_5", number, ValueError, "choose another"),
+            (3, number, TypeError, "expected a string"), ("mine", number[1:], ValueError, "one for each of the"),
+            ("mine", 7, TypeError, "an array for each frame"), ("mine", [*number[1:], label[0]], TypeError, "in all frames"),
+            ("mine", [*number[1:], number[0][:7]], ValueError, "values: expected one"), ("mine", [*number[1:], None], TypeError, "expected an array")]:
+        with pytest.raises(kind, match=text) as caught:
+            run.store(name, values)
+        assert isinstance(caught.value, talus.Error)
+    with pytest.raises(talus.Error, match="a unit with one of the signs"):
+        run.store("mine", number, unit="m,s")
+    assert path.read_bytes() == before
+
+
 def test_panels_and_movies_have_one_layout(frame, live, tmp_path):
     own = frame.map(frame.grains["pressure"], label="p", unit="Pa")
     one = talus.panel([frame.map("gamma")], width=600)

@@ -8,9 +8,13 @@
 #include <fmt/core.h>
 
 #include "base/errors.h"
+#include "base/hash.h"
 #include "core/trigonometry.h"
+#include "io/packed_file.h"
 #include "pictures/panel.h"
+#include "pictures/picture_files.h"
 #include "pictures/run_movie.h"
+#include "support/exit_code.h"
 #include "support/temporary_folder.h"
 
 namespace talus::pictures {
@@ -171,6 +175,35 @@ TEST_F(PictureSeriesTest, what_moves_is_measured_from_the_frame_before_or_from_t
   EXPECT_NE(fill_of(picture(since, 2, 0), 5), still);
   EXPECT_EQ(fill_of(picture(since, 1, 0), 5), still) << "motion is measured from this frame";
   EXPECT_EQ(fill_of(picture(since, 0, 0), 5), still) << "before it nothing has moved";
+}
+
+TEST_F(PictureSeriesTest, values_of_scripts_are_maps_by_their_name_on_one_scale) {
+  const std::string path = example_run(folder);
+  io::RunHeader header;
+  io::Checkpoint checkpoint;
+  io::RunStore::resume(path, header, checkpoint).pack();
+  OwnQuantity own{{}, OwnQuantity::Kind::number, "v_s", "m/s", "slip", true};
+  for (int k = 0; k < 4 * grains; ++k) own.values.push_back(k);
+  io::store_own(path, own, hash_text(state_hash(checkpoint.world)));
+  MapOptions options;
+  options.maps = {"slip", "slip+forces"};
+  DrawnRun run = open_drawn_run(path, plan_maps(options, path), {});
+  for (const std::size_t k : {0U, 3U}) {
+    const render::FrameView view = picture(run, k, 0);
+    const render::Bar& bar = view.legends.at(0).bars.at(0);
+    EXPECT_EQ(view.title, "v_s");
+    EXPECT_EQ(bar.title, "v_s in m/s");
+    EXPECT_EQ(bar.low, 0.0);
+    EXPECT_EQ(bar.high, 4 * grains - 1.0);
+    EXPECT_EQ(bar.values.at(2), k * grains + 2.0);
+  }
+  EXPECT_EQ(picture(run, 1, 1).title, "v_s; force chains, width by f_n");
+  const std::vector<PictureFile> files = picture_files(run, {0}, "maps", "png");
+  EXPECT_EQ(files.at(0).path, "maps/slip_000.00.png");
+  EXPECT_EQ(files.at(1).path, "maps/slip+forces_000.00.png");
+  options.maps = {"slop"};
+  EXPECT_TRUE(test::refuses([&] { plan_maps(options, path); }, ExitCode::usage,
+                            {"gamma, ", ", slip", "did you mean 'slip'?"}));
 }
 
 TEST_F(PictureSeriesTest, ranges_of_motion_fit_the_frames_that_are_drawn) {
