@@ -46,11 +46,12 @@ TEST(SpeedMap, IsInTheSpeedOfAFallOverAGrainAndLogarithmic) {
 }
 
 TEST(OwnMap, HasItsUnitInParentheses) {
-  const Packing packing = row_of_grains({0.1, 0.1});
+  Packing packing = row_of_grains({0.1, 0.1});
   const auto title = [&](const char* unit) {
-    const pictures::OwnQuantity own{{1.0, 2.0}, pictures::OwnQuantity::Kind::number, "push", unit};
-    const analysis::GrainSource frame{{packing.frame, packing.statics}};
-    return pictures::own_map(frame, own, {}, test::extent_of(packing)).legends[0].bars[0].title;
+    packing.frame.own = {{{1.0, 2.0}, OwnQuantity::Kind::number, "push", unit}};
+    pictures::MapSettings settings = settings_of("size");
+    settings.own = packing.frame.own[0];
+    return map_of(packing, settings).legends[0].bars[0].title;
   };
   EXPECT_EQ(title("m g"), "push (m g)");
   EXPECT_EQ(title(""), "push");

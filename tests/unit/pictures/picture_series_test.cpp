@@ -192,7 +192,7 @@ TEST_F(PictureSeriesTest, values_of_scripts_are_maps_by_their_name_on_one_scale)
     const render::FrameView view = picture(run, k, 0);
     const render::Bar& bar = view.legends.at(0).bars.at(0);
     EXPECT_EQ(view.title, "v_s");
-    EXPECT_EQ(bar.title, "v_s in m/s");
+    EXPECT_EQ(bar.title, "v_s (m/s)");
     EXPECT_EQ(bar.low, 0.0);
     EXPECT_EQ(bar.high, 4 * grains - 1.0);
     EXPECT_EQ(bar.values.at(2), k * grains + 2.0);
