@@ -6,6 +6,9 @@ import talus
 
 #: Factors of the thresholds of an analysis, at the end of the names of fields.
 THRESHOLDS = ("1", "2")
+#: Names of the fields that depend on a threshold.
+OF_THRESHOLDS = {f"{what}_{f}" for what in ("overloaded", "lc", "cluster") for f in THRESHOLDS}
+COMPONENTS = {1: [""], 2: ["_x", "_y"], 4: ["_xx", "_xy", "_yx", "_yy"]}
 
 
 def gamma_of_neighbourhoods(run, frame, diameter=3.0):
@@ -119,6 +122,17 @@ def contacts(run, k):
         "status": found.status,
         "strong": (f_n > f_n.mean()).astype(int),
     }
+
+
+def joined(columns, expected, own=()):
+    """Assembles the fields in `expected` from the columns of their components, and removes these columns. `own` are the
+    names of columns that do not follow from those of their field and component."""
+    found = {}
+    for name, values in expected.items():
+        width = 1 if np.ndim(values) == 1 else np.shape(values)[1]
+        names = own[name] if name in own else [name + component for component in COMPONENTS[width]]
+        found[name] = np.stack([np.asarray(columns.pop(of)) for of in names], axis=1).reshape(np.shape(values))
+    return found
 
 
 def compare(found, expected, *, single=1e-7):

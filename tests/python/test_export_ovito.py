@@ -6,14 +6,13 @@ import pytest
 
 import talus
 from conftest import run_talus
-from exported import compare, grains
+from exported import OF_THRESHOLDS, compare, grains, joined
 
 #: Names of fields in extended XYZ as OVITO expects them.
 XYZ_NAMES = {"type": "kind", "velocity": "velo", "displacement": "disp", "coordination": "n_neighb"}
 #: Names of columns in a LAMMPS dump as LAMMPS defines them.
 LAMMPS_NAMES = {"image": ["ix", "iy"], "velocity": ["vx", "vy"], "angular_velocity": ["omegaz"],
                 "displacement": ["displacementx", "displacementy"]}
-COMPONENTS = {1: [""], 2: ["_x", "_y"], 4: ["_xx", "_xy", "_yx", "_yy"]}
 LENGTHS = ("radius", "displacement", "lc_1", "lc_2")
 
 
@@ -53,8 +52,7 @@ def test_extended_xyz_is_read_by_ase(boundary, request, tmp_path):
                 found[name] = found[name] * d
             expected = grains(run, k)
             compare({name: found[name] for name in expected}, expected)
-            assert set(found) - set(expected) == (set() if boundary == "analysed" else
-                                                  {f"{what}_{f}" for what in ("overloaded", "lc", "cluster") for f in (1, 2)})
+            assert set(found) - set(expected) == (set() if boundary == "analysed" else OF_THRESHOLDS)
             np.testing.assert_array_equal(np.float32(found["velocity"]), np.float32(frame.velocity))
 
 
@@ -106,11 +104,8 @@ def test_lammps_dump_has_the_columns_that_ovito_knows(boundary, request, tmp_pat
             assert low[1] <= (frame.position[:, 1] - run.radius).min() and high[1] >= (frame.position[:, 1] + run.radius).max()
             assert list(columns)[:6] == ["id", "type", "x", "y", "radius", "mass"] and "z" not in columns
             np.testing.assert_array_equal(np.float32([columns.pop("x"), columns.pop("y")]), np.float32(frame.position.T))
-            expected, found = grains(run, k), {}
-            for name, values in expected.items():
-                width = 1 if np.ndim(values) == 1 else np.shape(values)[1]
-                names = LAMMPS_NAMES.get(name, [name + component for component in COMPONENTS[width]])
-                found[name] = np.stack([columns.pop(of) for of in names], axis=1).reshape(np.shape(values))
+            expected = grains(run, k)
+            found = joined(columns, expected, LAMMPS_NAMES)
             compare(found, expected)
             assert len(columns) == (0 if boundary == "analysed" else 6)
             np.testing.assert_array_equal(np.float32(found["internal_moment"]), np.float32(expected["internal_moment"]))

@@ -7,29 +7,12 @@ import pytest
 
 import talus
 from conftest import run_talus
-from exported import compare, contacts, grains
-
-COMPONENTS = {1: [""], 2: ["_x", "_y"], 4: ["_xx", "_xy", "_yx", "_yy"]}
-
-
-def joined(columns, expected):
-    """Assembles fields from the columns of their components, by the names in `expected`; removes these
-    columns."""
-    found = {}
-    for name, values in expected.items():
-        width = 1 if np.ndim(values) == 1 else np.shape(values)[1]
-        parts = [np.asarray(columns.pop(name + component)) for component in COMPONENTS[width]]
-        found[name] = np.stack(parts, axis=1).reshape(np.shape(values))
-    return found
+from exported import OF_THRESHOLDS, compare, contacts, grains, joined
 
 
 @pytest.fixture(scope="module")
 def pandas():
     return pytest.importorskip("pandas", reason="pandas is not installed: python3-pandas")
-
-
-def without_units(table):
-    return {name.split(" (")[0]: values for name, values in table.items()}
 
 
 @pytest.mark.parametrize("boundary", ["analysed", "walls"])
@@ -46,12 +29,13 @@ def test_tables_have_a_row_for_each_frame_grain_and_contact(pandas, boundary, re
         for name, fields in (("grains", grains), ("contacts", contacts)):
             assert len(read[name]) == sum(len(next(iter(fields(run, k).values()))) for k in chosen)
             for k in chosen:
-                table = without_units(read[name][read[name]["frame"] == k])
+                rows = read[name][read[name]["frame"] == k]
+                table = {column.split(" (")[0]: values for column, values in rows.items()}
                 expected = fields(run, k)
                 found = joined(table, expected)
                 compare(found, expected)
-                assert set(table) - {"frame", "x", "y"} == (set() if boundary == "analysed" or name == "contacts" else
-                    {f"{what}_{f}" for what in ("overloaded", "lc", "cluster") for f in (1, 2)})
+                without = boundary == "walls" and name == "grains"
+                assert set(table) - {"frame", "x", "y"} == (OF_THRESHOLDS if without else set())
                 if name == "grains":
                     np.testing.assert_array_equal(np.float32([table["x"], table["y"]]).T, run.frames[k].position)
                     np.testing.assert_array_equal(np.float32(found["velocity"]), run.frames[k].velocity)

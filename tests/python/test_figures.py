@@ -162,15 +162,6 @@ except Error as error:
     assert (done.returncode, done.stdout, done.stderr) == (0, "the disk is full\n", "")
 
 
-def test_figures_that_need_other_runs_are_left_out(beds, tmp_path, capsys):
-    run_figures(beds, "two/ensemble.h5", "-o", tmp_path, "--only", "4,7,force-chains", "-q")
-    said = capsys.readouterr()
-    assert said.err.splitlines() == [
-        "left out: fig07-wall-ratio needs a bed between walls that has failed",
-        "left out: force-chains needs the frames of a run that has failed"]
-    assert said.out == "" and len(list(tmp_path.glob("*.pdf"))) == 1
-
-
 def test_sizes():
     assert parse_size("") == (0, 0) and parse_size("8.6cm") == (8.6, 0) and parse_size("17.8x10cm") == (17.8, 10)
 

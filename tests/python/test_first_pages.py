@@ -70,12 +70,19 @@ def checkout(tmp_path):
     return tmp_path
 
 
+def type_in(checkout, text):
+    """Returns what a command prints that is typed in a checkout; if it fails, so does the test."""
+    environment = os.environ | {"PATH": f"{checkout / 'bin'}:{checkout / 'build/release'}:{os.environ['PATH']}", "MPLBACKEND": "Agg"}
+    done = subprocess.run(["bash", "-c", text], cwd=checkout, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, f"{text}\n{done.stdout}{done.stderr}"
+    return done.stdout + done.stderr
+
+
 @pytest.mark.parametrize("page", PAGES)
 def test_page_can_be_typed_from_its_first_line_to_its_last(page, checkout):
     pytest.importorskip("matplotlib", reason="matplotlib is not installed: python3-matplotlib")
     if "talus.Simulation(" in (ROOT / f"docs/{page}.md").read_text():
         pytest.importorskip("talus._core", reason="the extension is not built: pybind11-dev, python3-dev")
-    environment = os.environ | {"PATH": f"{checkout / 'bin'}:{checkout / 'build/release'}:{os.environ['PATH']}", "MPLBACKEND": "Agg"}
     typed = list(pieces(page))
     assert typed
     for name, text in typed:
@@ -85,11 +92,21 @@ def test_page_can_be_typed_from_its_first_line_to_its_last(page, checkout):
         if text.startswith("docs/data/campaign run "):  # hours: a few small beds in their place
             folder = f"runs/campaign/{text.split()[-1]}"
             text = f"build/release/talus ensemble assets/scenarios/demo.toml --seeds 1-5 -o {folder}"
-        done = subprocess.run(["bash", "-c", text], cwd=checkout, env=environment, capture_output=True, text=True)
-        assert done.returncode == 0, f"docs/{page}.md: {text}\n{done.stdout}{done.stderr}"
+        type_in(checkout, text)
         for output in re.findall(r"(?:-o|--screenshot) (\S+)", text):
             made = checkout / output
             assert any(made.iterdir()) if made.is_dir() else made.stat().st_size > 0, f"docs/{page}.md: {text}"
+
+
+def test_the_demo_works_as_often_as_it_is_typed(checkout):
+    pixels = []
+    for seed in (1, 2):
+        (checkout / "assets/scenarios/demo.toml").write_text(f"seed = {seed}\n{SMALL_DEMO}")
+        assert "From deposition to avalanche" in type_in(checkout, "./bootstrap demo")
+        pictures = sorted((checkout / "runs/demo-maps").iterdir())
+        assert len(pictures) > 10
+        pixels.append(pictures[0].read_bytes().partition(b"IDAT")[2])
+    assert pixels[0] != pixels[1], "a picture is left over from the first run"
 
 
 def test_commands_are_recognised():
