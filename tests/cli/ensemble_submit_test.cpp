@@ -19,10 +19,8 @@ class EnsembleSubmit : public CommandTest {
   void SetUp() override {
     write_file(folder_, "bed.toml", stable_bed);
     fs::create_directory(folder_.path() / "bin");
-    const Outcome begun =
-        talus({"ensemble", "bed.toml", "--seeds", "1-4", "--jobs", "0", "-o", "./" + name_});
-    ASSERT_EQ(begun.exit_code, 0) << begun.err;
-    ASSERT_TRUE(has(begun.out, "0 of 4 done, 0 under way")) << begun.out;
+    ASSERT_TRUE(ends(talus({"ensemble", "bed.toml", "--seeds", "1-4", "--jobs", "0", "-o", "./" + name_}), 0,
+                     {"0 of 4 done, 0 under way"}));
     command("squeue", "");
     command("scancel", "");
     command("sbatch", "echo 12");
@@ -38,12 +36,10 @@ class EnsembleSubmit : public CommandTest {
   }
 
   Outcome talus(const Words& arguments, const Words& variables = {}) {
-    Words environment = Words{"PATH=" + folder_.path("bin") + ":/usr/bin:/bin"} + variables;
-    return folder_.talus(arguments, environment);
+    return folder_.talus(arguments, Words{"PATH=" + folder_.path("bin") + ":/usr/bin:/bin"} + variables);
   }
   Outcome ensemble(const std::string& what, const Words& more = {}) {
-    Words words = Words{"ensemble", what, "./" + name_} + more;
-    return talus(words);
+    return talus(Words{"ensemble", what, "./" + name_} + more);
   }
   std::string called() { return folder_.text("called"); }
   std::string file(const std::string& name) { return folder_.path(name_ + "/" + name); }
@@ -80,11 +76,7 @@ TEST_F(EnsembleSubmit, has_a_worker_for_each_processor_of_a_task) {
                       .c_str()),
       0);
   const std::string log = text_of(folder_.path("plain/workers/slurm-12_1.log"));
-  std::size_t ended = 0;
-  for (std::size_t at = log.find(" failed here"); at != std::string::npos;
-       at = log.find(" failed here", at + 1))
-    ++ended;
-  EXPECT_EQ(ended, 2U) << log;
+  EXPECT_EQ(count_of(log, " failed here"), 2U) << log;
   for (int seed = 1; seed <= 4; ++seed)
     EXPECT_TRUE(has(log, "seed-" + std::to_string(seed) + " done\n")) << log;
 }
@@ -106,10 +98,8 @@ TEST_F(EnsembleSubmit, adds_tasks_only_for_members_that_none_is_queued_for) {
 TEST_F(EnsembleSubmit, shows_what_sbatch_says_and_obeys_nothing_of_it) {
   command("sbatch", "printf 'sbatch: error: no such \\033[31mpartition\\n' >&2; exit 1");
   const Outcome refused = ensemble("submit");
-  EXPECT_EQ(refused.exit_code, 69);
   EXPECT_TRUE(
-      has(refused.err, "sbatch submitted nothing; it says:\nsbatch: error: no such \\x1b[31mpartition"))
-      << refused.err;
+      ends(refused, 69, {"sbatch submitted nothing; it says:\nsbatch: error: no such \\x1b[31mpartition"}));
   EXPECT_FALSE(has(refused.err, "\033"));
   command("sbatch", "echo 'Submitted batch job'");
   EXPECT_EQ(ensemble("submit").exit_code, 69) << "not a number";
@@ -169,11 +159,10 @@ TEST_F(EnsembleSubmit, queues_a_task_again_while_members_come_further) {
 
 TEST_F(EnsembleSubmit, prints_a_worker_on_each_line) {
   const Outcome printed = ensemble("submit", {"--engine", "print", "--time", "01:00"});
-  EXPECT_EQ(printed.exit_code, 0) << printed.err;
+  EXPECT_TRUE(ends(printed, 0,
+                   {" ensemble work '" + folder_.path("-it'\\''s \"$(touch oops)\"") +
+                    "' --stale 120 --max-wall 00:58:00\n"}));
   EXPECT_EQ(std::ranges::count(printed.out, '\n'), 4) << printed.out;
-  EXPECT_TRUE(has(printed.out, " ensemble work '" + folder_.path("-it'\\''s \"$(touch oops)\"") +
-                                   "' --stale 120 --max-wall 00:58:00\n"))
-      << printed.out;
   EXPECT_EQ(called(), "");
   EXPECT_EQ(ensemble("submit", {"--engine", "print", "--", "--mem=1G"}).exit_code, 64);
   write_file(folder_, "lines", printed.out);

@@ -11,6 +11,7 @@
 #include "base/output_file.h"
 #include "support/commands.h"
 #include "support/places.h"
+#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -22,15 +23,13 @@ Words ensemble_of(const std::string& folder, const std::string& seeds = "1-4") {
 using Ensemble = StableBedTest;
 
 TEST_F(Ensemble, has_the_bits_of_talus_run_and_its_analysis) {
-  Words words = ensemble_of("e", "1-2") + Words{"--vary", "contact.friction=0.3,0.5"};
-  ASSERT_TRUE(ends(talus(words), 0, {"e: 4 of 4 done, 0 under way\n"}));
-  ASSERT_EQ(
-      talus({"run", "bed.toml", "--seed", "2", "--set", "contact.friction=0.3", "-o", "alone.h5"}).exit_code,
-      0);
-  const std::string alone = folder_.hash("alone.h5");
+  ASSERT_TRUE(ends(talus(ensemble_of("e", "1-2") + Words{"--vary", "contact.friction=0.3,0.5"}), 0,
+                   {"e: 4 of 4 done, 0 under way\n"}));
+  const std::string alone =
+      folder_.hash(kept_run(stable_bed, {"--seed", "2", "--set", "contact.friction=0.3"}).string());
   EXPECT_EQ(folder_.hash("e/contact.friction=0.3/seed-2.h5"), alone);
-  EXPECT_TRUE(has(folder_.text("e/members.csv"), "variant,contact.friction,seed,state_hash,"));
-  EXPECT_TRUE(has(folder_.text("e/members.csv"), "\"contact.friction=0.3\",0.3,2," + alone + ","));
+  EXPECT_TRUE(has_all(folder_.text("e/members.csv"), {"variant,contact.friction,seed,state_hash,",
+                                                      "\"contact.friction=0.3\",0.3,2," + alone + ","}));
   const Outcome analysis = talus({"analyze", "e/contact.friction=0.3/seed-2.h5"});
   EXPECT_TRUE(has(analysis.out + analysis.err, "analysis read from the file")) << analysis.out;
   EXPECT_EQ(count_of(folder_.text("e/members.csv"), "\n"), 5u);
@@ -66,8 +65,7 @@ TEST_F(Ensemble, is_averaged_again_from_the_runs_of_its_members) {
   // Like the output of talus run: without an analysis.
   ASSERT_EQ(talus({"run", "bed.toml", "--seed", "2", "-o", "e/seed-2.h5", "--overwrite"}).exit_code, 0);
   EXPECT_EQ(talus({"ensemble", "status", "e"}).exit_code, 0);
-  const Outcome again = talus({"ensemble", "average", "e"});
-  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_TRUE(ends(talus({"ensemble", "average", "e"}), 0));
   EXPECT_EQ(folder_.text("e/averages.csv"), before);
   EXPECT_EQ(count_of(folder_.text("e/members.csv"), "\n"), 3u);
   EXPECT_TRUE(folder_.has_file("e/ensemble.h5"));
@@ -92,36 +90,33 @@ TEST_F(Ensemble, is_averaged_by_one_process_at_a_time_and_none_is_refused) {
   EXPECT_FALSE(folder_.has_file("none"));
 }
 
-class InterruptedEnsemble : public testing::TestWithParam<int> {};
+class InterruptedEnsemble : public StableBedTest, public testing::WithParamInterface<int> {};
 
 TEST_P(InterruptedEnsemble, goes_on_to_the_same_bits) {
-  const CommandFolder folder(stable_bed);
-  ASSERT_EQ(folder.talus(ensemble_of("whole")).exit_code, 0);
-  const std::vector<int> codes = stop_until_done([&] { return folder.start(ensemble_of("parts")); },
-                                                 GetParam(), 50, folder.path("parts"));
-  for (const int code : codes) EXPECT_TRUE(code == 0 || code == -1 || code == 75) << code << folder.errors();
+  ASSERT_EQ(talus(ensemble_of("whole")).exit_code, 0);
+  const std::vector<int> codes = stop_until_done([&] { return folder_.start(ensemble_of("parts")); },
+                                                 GetParam(), 50, folder_.path("parts"));
+  for (const int code : codes) EXPECT_TRUE(code == 0 || code == -1 || code == 75) << code << folder_.errors();
   EXPECT_EQ(codes.back(), 0);
   for (const char* member : {"seed-1.h5", "seed-2.h5", "seed-3.h5", "seed-4.h5"})
-    EXPECT_EQ(folder.hash(std::string("parts/") + member), folder.hash(std::string("whole/") + member))
+    EXPECT_EQ(folder_.hash(std::string("parts/") + member), folder_.hash(std::string("whole/") + member))
         << member;
-  EXPECT_EQ(folder.text("parts/averages.csv"), folder.text("whole/averages.csv"));
+  EXPECT_EQ(folder_.text("parts/averages.csv"), folder_.text("whole/averages.csv"));
 }
 
 TEST_P(InterruptedEnsemble, that_keeps_no_frames_ends_with_the_analyses_of_all) {
-  const CommandFolder folder(stable_bed);
-  ASSERT_EQ(folder.talus(ensemble_of("whole")).exit_code, 0);
-  Words words = ensemble_of("parts") + Words{"--keep", "analysis"};
+  ASSERT_EQ(talus(ensemble_of("whole")).exit_code, 0);
+  const Words words = ensemble_of("parts") + Words{"--keep", "analysis"};
   const std::vector<int> codes =
-      stop_until_done([&] { return folder.start(words); }, GetParam(), 50, folder.path("parts"));
+      stop_until_done([&] { return folder_.start(words); }, GetParam(), 50, folder_.path("parts"));
   EXPECT_EQ(codes.back(), 0);
-  EXPECT_EQ(folder.text("parts/averages.csv"), folder.text("whole/averages.csv"));
+  EXPECT_EQ(folder_.text("parts/averages.csv"), folder_.text("whole/averages.csv"));
   for (const char* seed : {"1", "2", "3", "4"}) {
     const std::string member = std::string("parts/seed-") + seed + ".h5";
-    EXPECT_FALSE(folder.has_file(member + ".run")) << member;
-    EXPECT_EQ(folder.hash(member), folder.hash(std::string("whole/seed-") + seed + ".h5"));
-    EXPECT_EQ(folder.talus({"check", member}).exit_code, 0) << member;
-    EXPECT_EQ(folder.talus({"render", member, "--map", "size", "--at", "0", "-o", "x"}).exit_code, 66)
-        << member;
+    EXPECT_FALSE(folder_.has_file(member + ".run")) << member;
+    EXPECT_EQ(folder_.hash(member), folder_.hash(std::string("whole/seed-") + seed + ".h5"));
+    EXPECT_EQ(talus({"check", member}).exit_code, 0) << member;
+    EXPECT_EQ(talus({"render", member, "--map", "size", "--at", "0", "-o", "x"}).exit_code, 66) << member;
   }
 }
 
@@ -147,8 +142,7 @@ TEST_F(Ensemble, that_keeps_less_goes_on_from_what_is_there) {
   EXPECT_EQ(talus(ensemble_of("e", "4")).exit_code, 0) << "the folder records what it keeps";
   EXPECT_FALSE(has_frames(4));
   EXPECT_EQ(std::filesystem::last_write_time(folder_.path("e/seed-2.h5")), written);
-  const Outcome status = talus({"ensemble", "status", "e"});
-  EXPECT_TRUE(has(status.out,
+  EXPECT_TRUE(has(talus({"ensemble", "status", "e"}).out,
                   "e: 4 of 4 done, 0 under way\nkept: the analyses of all members that are done, and "
                   "the frames of 1\n"));
   const Outcome json = talus({"ensemble", "status", "e", "--json"});
@@ -165,8 +159,7 @@ TEST_F(Ensemble, that_keeps_less_goes_on_from_what_is_there) {
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptedEnsemble, testing::Values(SIGINT, SIGTERM, SIGKILL));
 
 TEST_F(Ensemble, is_shared_by_workers_which_begin_each_member_once) {
-  ASSERT_EQ(talus(ensemble_of("e", "1")).exit_code,
-            0);  // creates the ensemble for the workers
+  ASSERT_TRUE(ends(talus(ensemble_of("e", "1")), 0));  // creates the ensemble for the workers
   const pid_t first = folder_.start(ensemble_of("e", "1-12"));
   const std::string manifest = folder_.path("e/ensemble.manifest");
   wait_until([&] { return text_of(manifest).find("\"1-12\"") != std::string::npos; });
@@ -179,12 +172,8 @@ TEST_F(Ensemble, is_shared_by_workers_which_begin_each_member_once) {
   for (const Outcome& end : ends) begun += end.out;
   for (const auto& log : std::filesystem::directory_iterator(folder_.path("e/workers")))
     begun += text_of(log.path().string());
-  for (int seed = 1; seed <= 12; ++seed) {
-    const std::string line = "seed-" + std::to_string(seed) + " begun\n";
-    const std::size_t at = begun.find(line);
-    ASSERT_NE(at, std::string::npos) << line;
-    EXPECT_EQ(begun.find(line, at + 1), std::string::npos) << "twice: " << line;
-  }
+  for (int seed = 1; seed <= 12; ++seed)
+    EXPECT_EQ(count_of(begun, "seed-" + std::to_string(seed) + " begun\n"), 1u) << seed;
 }
 
 TEST_F(Ensemble, may_be_extended_while_it_is_computed) {
@@ -195,16 +184,14 @@ TEST_F(Ensemble, may_be_extended_while_it_is_computed) {
 }
 
 TEST_F(Ensemble, replaces_a_worker_that_was_killed) {
-  Words words = ensemble_of("e", "1-6") + Words{"--jobs", "1"};
-  const pid_t ensemble = folder_.start(words);
+  const pid_t ensemble = folder_.start(ensemble_of("e", "1-6") + Words{"--jobs", "1"});
   // The worker writes its process number into its claim: "process 123 on host a, ...".
   std::string word, worker;
-  for (int wait = 0; wait < 30000 && worker.empty(); ++wait) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(wait_until([&] {
     for (int seed = 2; seed <= 6 && worker.empty(); ++seed)  // a first member is done by then
       std::ifstream(folder_.path("e/seed-" + std::to_string(seed) + ".claim-0")) >> word >> worker;
-  }
-  ASSERT_FALSE(worker.empty());
+    return !worker.empty();
+  }));
   kill(std::stoi(worker), SIGKILL);
   EXPECT_EQ(wait_for(ensemble), 0) << folder_.errors();
   EXPECT_EQ(count_of(folder_.text("e/members.csv"), "\n"), 7u);
@@ -256,9 +243,8 @@ TEST_F(Ensemble, shows_what_failed_leaves_it_out_and_tries_it_again) {
   // Half of these beds come to rest within so short a time.
   write_file(folder, "bed.toml", std::string(stable_bed) + "[deposition]\nmax_time = 0.05\n");
   const Outcome failed = folder.talus(ensemble_of("e", "1-2"));
-  EXPECT_EQ(failed.exit_code, 65) << failed.out;
+  EXPECT_TRUE(ends(failed, 65, {"left out of the means"}));
   EXPECT_TRUE(has(failed.out, "failed: seed-1, exit code 65: talus: error: "));
-  EXPECT_TRUE(has(failed.err, "left out of the means"));
   EXPECT_FALSE(has(folder.talus({"ensemble", "work", "e"}).out, "begun"))
       << "a failed member stays unchanged";
   EXPECT_TRUE(has(folder.talus({"ensemble", "retry", "e"}).out, "2 members are waiting again"));
@@ -266,28 +252,25 @@ TEST_F(Ensemble, shows_what_failed_leaves_it_out_and_tries_it_again) {
 }
 
 TEST_F(Ensemble, begins_no_more_once_the_mean_is_known_well_enough) {
-  Words words = ensemble_of("e", "1-30") + Words{"--until", "unconverged_steps:1000", "--jobs", "1"};
-  const Outcome done = talus(words);
-  EXPECT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_TRUE(has(done.out, "e: 5 of 30 done"));
+  EXPECT_TRUE(
+      ends(talus(ensemble_of("e", "1-30") + Words{"--until", "unconverged_steps:1000", "--jobs", "1"}), 0,
+           {"e: 5 of 30 done"}));
   const Outcome status = talus({"ensemble", "status", "e", "--json"});
   EXPECT_EQ(json_value(status.out, "done"), "5");
   EXPECT_EQ(json_value(status.out, "waiting"), "25");
 }
 
-int steps_of(const std::string& run, const CommandFolder& folder) {
-  return std::stoi("0" + folder.info(run, "steps"));
-}
-
 TEST_F(Ensemble, stops_in_time_and_goes_on_where_it_was) {
   const CommandFolder folder("[bed]\nlength = 50\ndepth = 20\n");
-  Words words = ensemble_of("e", "1") + Words{"--max-wall", "00:00:03"};
-  EXPECT_TRUE(ends(folder.talus(words), 75));
+  const Words words = ensemble_of("e", "1") + Words{"--max-wall", "00:00:03"};
+  const auto steps_after_a_while = [&] {
+    EXPECT_TRUE(ends(folder.talus(words), 75));
+    return std::stoi("0" + folder.info("e/seed-1.h5", "steps"));
+  };
+  const int steps = steps_after_a_while();
   EXPECT_FALSE(folder.has_file("e/seed-1.claim-0"));
-  const int steps = steps_of("e/seed-1.h5", folder);
   EXPECT_GT(steps, 1);
-  EXPECT_EQ(folder.talus(words).exit_code, 75);
-  EXPECT_GT(steps_of("e/seed-1.h5", folder), steps);
+  EXPECT_GT(steps_after_a_while(), steps);
 }
 
 TEST_F(Ensemble, of_a_bad_form_is_refused_before_anything_is_made) {
@@ -307,8 +290,7 @@ TEST_F(Ensemble, of_a_bad_form_is_refused_before_anything_is_made) {
 }
 
 TEST_F(Ensemble, leaves_a_member_for_later_whose_run_somebody_else_writes) {
-  Words words = ensemble_of("e", "1-3") + Words{"--jobs", "0"};
-  ASSERT_EQ(talus(words).exit_code, 0);
+  ASSERT_EQ(talus(ensemble_of("e", "1-3") + Words{"--jobs", "0"}).exit_code, 0);
   std::filesystem::create_directory(folder_.path("e/seed-1.h5.run"));
   write_file(folder_, "e/seed-1.h5.run/lock", "process 12 on host a");
   pid_t work = 0;
@@ -319,8 +301,7 @@ TEST_F(Ensemble, leaves_a_member_for_later_whose_run_somebody_else_writes) {
     const auto others_are_done = [&] {
       return folder_.has_file("e/seed-2.h5") && folder_.has_file("e/seed-3.h5");
     };
-    wait_until([&] { return others_are_done(); });
-    EXPECT_TRUE(others_are_done());
+    EXPECT_TRUE(wait_until(others_are_done));
     EXPECT_FALSE(has_ended(work)) << "it waits";
     EXPECT_TRUE(has(folder_.errors(), "seed-1 is postponed: process 12 on host a is writing its run"));
     EXPECT_FALSE(folder_.has_file("e/seed-1.claim-0"));
@@ -330,8 +311,7 @@ TEST_F(Ensemble, leaves_a_member_for_later_whose_run_somebody_else_writes) {
 }
 
 TEST_F(Ensemble, begins_a_member_anew_whose_folder_is_damaged) {
-  Words words = ensemble_of("e", "1") + Words{"--jobs", "0"};
-  ASSERT_EQ(talus(words).exit_code, 0);
+  ASSERT_EQ(talus(ensemble_of("e", "1") + Words{"--jobs", "0"}).exit_code, 0);
   std::filesystem::create_directory(folder_.path("e/seed-1.h5.run"));
   write_file(folder_, "e/seed-1.h5.run/manifest", "talus run folder 1\nheader");
   EXPECT_TRUE(has(talus({"ensemble", "work", "e"}).out, "seed-1 done\n"));

@@ -25,10 +25,8 @@ const char* const tiny_bed =
 
 class MapCommands : public CommandTest {
  protected:
-  void make_run() {
-    write_file(folder_, "bed.toml", tiny_bed);
-    take_run(folder_, "bed.h5", tiny_bed);
-  }
+  MapCommands() : CommandTest(tiny_bed) { take_run(folder_, "bed.h5", tiny_bed); }
+
   /// The bed remains stable, so its theta_c is unknown.
   Outcome render(const Words& more) { return talus(Words{"render", "bed.h5"} + more); }
   std::set<std::string> files(const char* name) { return names_in(folder_.path() / name); }
@@ -95,7 +93,6 @@ TEST_F(MapCommands, refuse_what_makes_no_sense_before_they_look_for_the_run) {
 }
 
 TEST_F(MapCommands, refuse_what_the_run_does_not_have) {
-  make_run();
   const std::vector<std::tuple<Words, int, std::string>> cases = {
       {{"render", "bed.h5", "--map", "pressure", "--crop", "5,0,11,2"}, 64, "leaves the bed"},
       {{"render", "bed.h5", "--map", "pressure", "--crop", "0,0,5,50"}, 64, "leaves the bed"},
@@ -114,7 +111,6 @@ TEST_F(MapCommands, refuse_what_the_run_does_not_have) {
 }
 
 TEST_F(MapCommands, pictures_are_named_by_layers_and_angle) {
-  make_run();
   ASSERT_TRUE(ends(render({"--map", "gamma+forces,displacement", "--every", "0.5", "-o", "maps"}), 0));
   EXPECT_EQ(files("maps"), (std::set<std::string>{"gamma+forces_000.00.png", "gamma+forces_000.50.png",
                                                   "gamma+forces_001.00.png", "gamma+forces_001.50.png",
@@ -153,7 +149,6 @@ TEST_F(MapCommands, values_stored_with_the_run_are_drawn_listed_and_exported) {
 }
 
 TEST_F(MapCommands, every_map_and_option_draws) {
-  make_run();
   const std::vector<Words> cases = {
       {"--map",
        "gamma,overloaded,clusters,coarse,pressure,displacement,rotation,forces,critical,speed,nonaffine,"
@@ -176,7 +171,6 @@ TEST_F(MapCommands, every_map_and_option_draws) {
 }
 
 TEST_F(MapCommands, pictures_that_exist_are_replaced_only_when_told) {
-  make_run();
   const Words map = {"render", "bed.h5", "--map", "pressure", "--at", "1", "-o", "maps"};
   const Words panel = {"panel", "bed.h5", "--map", "pressure", "--at", "0,1", "-o", "panel.png"};
   for (const auto& [command, name] : {std::pair{map, "maps/pressure_001.00.png"}, {panel, "panel.png"}}) {
@@ -192,7 +186,6 @@ TEST_F(MapCommands, pictures_that_exist_are_replaced_only_when_told) {
 }
 
 TEST_F(MapCommands, a_foreign_file_is_refused_before_anything_is_drawn) {
-  make_run();
   fs::create_directory(folder_.path() / "maps");
   write_file(folder_, "maps/pressure_001.50.png", "precious");
   EXPECT_EQ(render({"--map", "pressure", "--every", "0.5", "-o", "maps"}).exit_code, 73);
@@ -203,7 +196,6 @@ TEST_F(MapCommands, a_foreign_file_is_refused_before_anything_is_drawn) {
 }
 
 TEST_F(MapCommands, a_frame_has_the_same_colours_alone_as_among_all) {
-  make_run();
   const Words clusters = {"--map", "clusters", "--set", "threshold_factors=0.5"};
   ASSERT_EQ(render(clusters + Words{"--at", "1.5", "-o", "one"}).exit_code, 0);
   ASSERT_EQ(render(clusters + Words{"--every", "0.5", "-o", "all"}).exit_code, 0);
@@ -211,7 +203,6 @@ TEST_F(MapCommands, a_frame_has_the_same_colours_alone_as_among_all) {
 }
 
 TEST_F(MapCommands, without_a_context_nothing_is_made) {
-  make_run();
   const Words broken = {"LD_LIBRARY_PATH=" + folder_.path().string()};
   for (const char* library : {"libOSMesa.so.8", "libEGL.so.1"})
     write_file(folder_, library, "no library, but longer than a header " + std::string(100, '.'));
@@ -226,7 +217,6 @@ TEST_F(MapCommands, without_a_context_nothing_is_made) {
 }
 
 TEST_F(MapCommands, no_variable_of_a_driver_changes_a_picture_or_costs_a_run) {
-  make_run();
   const Words variables = {"GALLIUM_DRIVER=swr",
                            "MESA_GLSL_VERSION_OVERRIDE=110",
                            "LP_NATIVE_VECTOR_WIDTH=1",
@@ -261,7 +251,6 @@ TEST_F(MapCommands, no_variable_of_a_driver_changes_a_picture_or_costs_a_run) {
 }
 
 TEST_F(MapCommands, a_stopped_job_leaves_whole_pictures) {
-  make_run();
   const Words job = {"render",  "bed.h5", "--map",  "pressure,rotation,forces,critical,displacement",
                      "--every", "0.5",    "--size", "6000",
                      "-o",      "maps"};
@@ -281,7 +270,6 @@ bool is_alive(const std::string& process) {
 
 // An ffmpeg that neither reads nor ends, and has started a program that writes messages without end.
 TEST_F(MapCommands, a_movie_that_is_ended_leaves_no_process_and_a_stopped_one_no_file) {
-  make_run();
   const std::string started = folder_.path("started");
   fs::create_directory(folder_.path("tools"));
   write_file(folder_, "tools/ffmpeg",
@@ -306,7 +294,6 @@ TEST_F(MapCommands, a_movie_that_is_ended_leaves_no_process_and_a_stopped_one_no
 }
 
 TEST_F(MapCommands, without_a_map_draw_the_two_of_the_paper) {
-  make_run();
   ASSERT_EQ(render({}).exit_code, 0);
   std::set<std::string> expected;  // every degree, and the last before failure
   for (const char* map : {"gamma", "overloaded"})
@@ -326,7 +313,6 @@ TEST_F(MapCommands, without_a_map_draw_the_two_of_the_paper) {
 }
 
 TEST_F(MapCommands, sizes_have_the_same_forms_everywhere) {
-  make_run();
   struct Case {
     const char* size;
     int width, height;  ///< px; height 0: that of the bed
@@ -348,7 +334,6 @@ TEST_F(MapCommands, sizes_have_the_same_forms_everywhere) {
 }
 
 TEST_F(MapCommands, a_panel_stacks_angles_and_sets_maps_beside_each_other) {
-  make_run();
   const Words one = {"panel", "bed.h5", "--map", "pressure", "--size", "600"};
   const auto shape = [this](const char* name) { return picture_size(folder_.path() / name); };
   ASSERT_EQ(talus(one + Words{"--at", "0", "-o", "one.png"}).exit_code, 0);
@@ -377,7 +362,6 @@ TEST_F(MapCommands, of_a_run_without_frames_are_refused) {
 
 TEST_F(MapCommands, a_movie_follows_the_tilt) {
   if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
-  make_run();
   const Words movie = {"animate", "bed.h5", "--map", "pressure", "--size", "300"};
   ASSERT_TRUE(ends(talus(movie + Words{"-o", "a.gif"}), 0, {"4 frames, 0.4 s"}));
   // 1.5 deg in 3 s at 10 frames per second; the last frame is held for another second.

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Bed that is tilted fast, so that it fails and flows within a few seconds.
+/// Bed that is tilted fast: it fails, flows, and comes to rest again within a few seconds.
 const char* const failing_bed =
     "seed = 2\n[bed]\nlength = 20\ndepth = 6\n[deposition]\nrest_velocity = 0.05\n"
     "[tilt]\nrate = 20\nstep = 0.02\nafter_failure = \"lower\"\nlowering_rate = 20\n"
@@ -29,9 +29,7 @@ class RunFrames : public CommandTest {
 
   const Words maps_ = {"--map", "clusters,displacement", "--size", "400"};
   Words run(const std::string& output, const std::string& maps, const Words& more = {}) {
-    Words arguments = Words{"run", "bed.toml", "-o", output, "--pictures", maps} + maps_;
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+    return Words{"run", "bed.toml", "-o", output, "--pictures", maps} + maps_ + more;
   }
 };
 
@@ -121,12 +119,6 @@ TEST_F(RunFrames, of_the_flow_are_drawn_from_the_file_too) {
   EXPECT_TRUE(std::prev(names.end())->starts_with("clusters_flow_"));
 }
 
-/// Small bed that is tilted fast: it fails and comes to rest again within a few seconds.
-const char* const lowered_bed =
-    "seed = 2\n[bed]\nlength = 20\ndepth = 6\n[deposition]\nrest_velocity = 0.05\n"
-    "[tilt]\nrate = 20\nstep = 0.02\nafter_failure = \"lower\"\nlowering_rate = 5\n"
-    "[output]\nframe_every = 1\nobservable_every = 0.2\n";
-
 /// Bed of 40 grains with few frames.
 const char* const smaller_bed =
     "seed = 2\n[bed]\nlength = 10\ndepth = 4\n[deposition]\nrest_velocity = 0.05\n"
@@ -135,7 +127,7 @@ const char* const smaller_bed =
 
 class AfterFailure : public CommandTest {
  protected:
-  AfterFailure() : CommandTest(lowered_bed) {}
+  AfterFailure() : CommandTest(failing_bed) {}
 
   /// Waits until the process that writes the run commits again or ends.
   void wait_for_commit(pid_t process, const std::string& run) const {
@@ -176,8 +168,8 @@ TEST_F(AfterFailure, a_flow_that_does_not_stop_is_told) {
 }
 
 TEST_F(AfterFailure, the_other_commands_see_the_tilt_alone) {
-  take_run(folder_, "flow.h5", lowered_bed);
-  take_run(folder_, "stop.h5", lowered_bed, {"--set", "tilt.after_failure=stop"});
+  take_run(folder_, "flow.h5", failing_bed);
+  take_run(folder_, "stop.h5", failing_bed, {"--set", "tilt.after_failure=stop"});
   EXPECT_EQ(info("flow.h5", "frames"), info("stop.h5", "frames"));
   EXPECT_EQ(info("flow.h5", "theta_c_deg"), info("stop.h5", "theta_c_deg"));
   EXPECT_EQ(info("stop.h5", "theta_r_deg"), "null");

@@ -2,13 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <csignal>
-#include <fstream>
-#include <thread>
-
 #include "io/run_file.h"
 #include "support/commands.h"
-#include "support/runs.h"
 
 namespace talus::test {
 namespace {
@@ -128,30 +123,6 @@ TEST_F(Run, replaces_no_file_that_has_appeared_under_its_name) {
   EXPECT_EQ(wait_for(again), 73);
   EXPECT_EQ(folder_.text("new.h5"), other);
   EXPECT_EQ(info("new.h5", "seed"), "4");
-}
-
-TEST_F(Run, of_a_bed_that_cannot_be_stored_is_refused_before_its_first_step) {
-  const CommandFolder folder;
-  std::string table = "x,y,radius\n";
-  for (int k = 0; k < 30; ++k)
-    table += std::to_string(k % 10) + ".5," + std::to_string(0.51 + 1.02 * (k / 10)) + ",0.5\n";
-  write_file(folder, "bed.toml",
-             "[bed]\nlength = 10\ndepth = 3\n[deposition]\nmethod = \"file\"\nfile = "
-             "\"bed.csv\"\nrest_velocity = 0.1\n"
-             "[tilt]\nrate = 20\nstep = 0.01\nend_angle = 0.1\n");
-  for (const auto& [last, message] :
-       {std::pair{"1,1.02,0.0009\n",
-                  "bed.csv:32:1: error: the grain has a radius of 0.0009 D: "
-                  "expected 0.001 to 1000 D"},
-        {"1,1.02,1e-300\n", "bed.csv:32:1: error: the grain has a radius of 1e-300 D"},
-        {"1,130001,0.5\n",
-         "bed.csv:32:1: error: the grain is at x = 1 D, y = 130001 D: "
-         "expected at most 130000 D from the origin"}}) {
-    write_file(folder, "bed.csv", table + last);
-    for (const Words& words : {Words{"check", "bed.toml"}, {"run", "bed.toml"}})
-      EXPECT_TRUE(ends(folder.talus(words), 65, {message}));
-    EXPECT_FALSE(folder.has_file("bed.h5.run"));
-  }
 }
 
 // In a loop over a parameter that gives every run the same name, the first run must not be accepted for all.

@@ -124,24 +124,14 @@ class TiltProgramCommands : public CommandTest {
 
 TEST_F(TiltProgramCommands, check_tells_the_programme_and_what_it_takes) {
   const Outcome check = talus({"check", "bed.toml"});
-  ASSERT_EQ(check.exit_code, 0) << check.err;
-  EXPECT_TRUE(
-      has_all(check.out, {"program = [\"to 4\", \"hold 0.1\", \"to -2\", \"2 times\", \"to repose\"]",
-                          "#   programme   7 parts, repetitions included, 2.4 s if it fails at 20 deg\n",
-                          "about 2400 of tilt (failure at 20 deg)"}));
+  ASSERT_TRUE(ends(check, 0,
+                   {"program = [\"to 4\", \"hold 0.1\", \"to -2\", \"2 times\", \"to repose\"]",
+                    "#   programme   7 parts, repetitions included, 2.4 s if it fails at 20 deg\n",
+                    "about 2400 of tilt (failure at 20 deg)"}));
   write_file(folder_, "full.toml", check.out);
-  EXPECT_EQ(talus({"check", "full.toml", "--json"}).out.find("\"tilt_steps\": 2400") == std::string::npos,
-            false);
+  EXPECT_TRUE(has(talus({"check", "full.toml", "--json"}).out, "\"tilt_steps\": 2400"));
   EXPECT_TRUE(
       has(talus({"check", "bed.toml", "--set", "tilt.program=to 4, to 0, 3 times"}).out, " 1200 of tilt\n"));
-}
-
-TEST_F(TiltProgramCommands, a_bad_one_is_refused_before_anything_is_made) {
-  EXPECT_TRUE(ends(talus({"run", "bed.toml", "-o", "bed.h5", "--set", "tilt.program=to 4, hold"}), 65,
-                   {"key 'tilt.program' = \"hold\": expected "}));
-  EXPECT_FALSE(folder_.has_file("bed.h5"));
-  EXPECT_TRUE(
-      ends(talus({"check", "bed.toml", "--set", "tilt.end_angle=5"}), 65, {"no tilt.end_angle, because"}));
 }
 
 TEST_F(TiltProgramCommands, a_run_is_made_told_replayed_drawn_and_exported) {
@@ -163,14 +153,14 @@ TEST_F(TiltProgramCommands, a_run_is_made_told_replayed_drawn_and_exported) {
                           "--size", "300", "-o", "maps"}),
                    0));
   EXPECT_EQ(files_in("maps"), files_in("live"));
-  const Outcome some = talus({"render", "bed.h5", "--map", "gamma", "--at", "4,frame9,repose", "--trace",
-                              "stress_ratio,overloaded", "--size", "300", "-o", "some"});
-  ASSERT_EQ(some.exit_code, 0) << some.err;
+  ASSERT_TRUE(ends(talus({"render", "bed.h5", "--map", "gamma", "--at", "4,frame9,repose", "--trace",
+                          "stress_ratio,overloaded", "--size", "300", "-o", "some"}),
+                   0));
   EXPECT_EQ(files_in("some").size(), 3u);
   EXPECT_TRUE(files_in("some").contains("gamma_00004_004.00.png")) << "the first frame at 4 deg";
-  const Outcome turned =
-      talus({"render", "bed.h5", "--map", "gamma", "--at=-2", "--turned", "--size", "300", "-o", "turned"});
-  ASSERT_EQ(turned.exit_code, 0) << turned.err;
+  ASSERT_TRUE(ends(
+      talus({"render", "bed.h5", "--map", "gamma", "--at=-2", "--turned", "--size", "300", "-o", "turned"}),
+      0));
   EXPECT_EQ(files_in("turned").size(), 1u);
 
   EXPECT_EQ(talus({"export", "bed.h5", "--to", "observables", "-o", "rows.csv"}).exit_code, 0);
@@ -180,11 +170,9 @@ TEST_F(TiltProgramCommands, a_run_is_made_told_replayed_drawn_and_exported) {
 
 TEST_F(TiltProgramCommands, the_analysis_says_what_its_angles_refer_to) {
   take_run(folder_, "bed.h5", cycled_bed);
-  const Outcome analysis = talus({"analyze", "bed.h5"});
-  ASSERT_EQ(analysis.exit_code, 0) << analysis.err;
-  EXPECT_TRUE(has(analysis.out, "theta_c, theta_d and the first slide refer to the last rise, from 0"));
+  EXPECT_TRUE(ends(talus({"analyze", "bed.h5"}), 0,
+                   {"theta_c, theta_d and the first slide refer to the last rise, from 0", " -2.00 to "}));
   EXPECT_TRUE(has(talus({"analyze", "bed.h5"}).out, "(analysis read from the file)"));
-  EXPECT_TRUE(has(analysis.out, " -2.00 to "));
 }
 
 TEST_F(TiltProgramCommands, cycles_are_a_figure_of_runs_that_have_them) {

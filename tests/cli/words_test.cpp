@@ -136,9 +136,8 @@ TEST_F(TypedWords, every_help_fits_two_screens) {
                               "ensemble", "figures", "check",   "info",      "replay",  "repair", "analyze",
                               "events",   "study",   "perturb", "reproduce", "dump",    "solve",  "forces"}) {
     const Outcome shown = talus({command, "--help"});
-    EXPECT_EQ(shown.exit_code, 0) << command;
+    EXPECT_TRUE(ends(shown, 0, {"\n"})) << command;
     const std::string& help = shown.out;
-    ASSERT_NE(help, "") << command;
     EXPECT_LE(std::ranges::count(help, '\n'), 100) << command;
     EXPECT_FALSE(has(help, "... ...")) << help;
     const bool draws = std::string("run render panel animate").find(command) != std::string::npos;
@@ -161,10 +160,7 @@ TEST_F(TypedWords, a_value_is_suggested) {
       {{"--map", "gamma", "--context", "osmsea"}, "'osmesa'"},
       {{"--map", "gamma", "--trace", "overlaoded"}, "'overloaded'"},
   };
-  for (const auto& [more, nearest] : cases) {
-    Words words = render + more;
-    expect_refused(words, "did you mean " + nearest + "?");
-  }
+  for (const auto& [more, nearest] : cases) expect_refused(render + more, "did you mean " + nearest + "?");
   expect_refused({"export", "x.h5", "--to", "paravew", "-o", "x"}, "did you mean 'paraview'?");
   expect_refused({"solve", "x.h5", "--solver", "gaus-seidel"}, "did you mean 'gauss-seidel'?");
   expect_refused({"ensemble", "submit", "x", "--engine", "slrum"}, "did you mean 'slurm'?");
@@ -265,9 +261,9 @@ TEST_F(TypedWords, version_is_told) {
 
 TEST_F(TypedWords, maps_are_listed_in_a_table) {
   const Outcome maps = talus({"maps"});
-  EXPECT_EQ(maps.exit_code, 0);
-  EXPECT_TRUE(has_all(maps.out, {"\ngamma         stress ratio of each grain", "\nclusters ", "\ncritical ",
-                                 "\nlargest_cluster  Share", "--colours: gray, viridis"}));
+  EXPECT_TRUE(ends(maps, 0,
+                   {"\ngamma         stress ratio of each grain", "\nclusters ", "\ncritical ",
+                    "\nlargest_cluster  Share", "--colours: gray, viridis"}));
   EXPECT_TRUE(has(maps.out, "length\n")) << "the parameter of the map coarse";
   std::istringstream lines(maps.out);
   for (std::string line; std::getline(lines, line);) {
