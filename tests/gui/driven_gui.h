@@ -1,7 +1,6 @@
 #pragma once
 /// The window without a display, controlled like a user would.
 
-#include <string>
 #include <string_view>
 
 #include "gui/screen.h"

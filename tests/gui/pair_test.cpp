@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/trigonometry.h"
 #include "gui/offscreen_fixture.h"
 
 namespace talus {

@@ -4,8 +4,6 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
-#include <memory>
 #include <set>
 #include <thread>
 

@@ -23,7 +23,6 @@
 #include "scenario/scenario.h"
 #include "session/estimate.h"
 #include "support/commands.h"
-#include "support/places.h"
 
 namespace talus::test {
 namespace {

@@ -55,6 +55,7 @@ inline Words with_output(Words words, const std::string& output) {
 }
 
 inline const std::vector<Writer>& writers() {
+  static const Words movie = {"animate", "f.h5", "-q", "--map", "pressure", "--size", "300", "-o", "OUT"};
   static const std::vector<Writer> all = {
       {"run", "r.h5", {"run", "bed.toml", "-q", "-o", "OUT"}},
       {"replay", "r.h5", {"replay", "f.h5", "-q", "-o", "OUT"}},
@@ -65,21 +66,9 @@ inline const std::vector<Writer>& writers() {
        "p.png",
        {"panel", "f.h5", "-q", "--map", "pressure", "--at", "0,1", "--size", "300", "-o", "OUT"}},
       {"screenshot", "v.png", {"view", "f.h5", "--size", "400x300", "--screenshot", "OUT"}},
-      {"mp4",
-       "m.mp4",
-       {"animate", "f.h5", "-q", "--map", "pressure", "--size", "300", "-o", "OUT"},
-       false,
-       true},
-      {"webm",
-       "m.webm",
-       {"animate", "f.h5", "-q", "--map", "pressure", "--size", "300", "-o", "OUT"},
-       false,
-       true},
-      {"gif",
-       "m.gif",
-       {"animate", "f.h5", "-q", "--map", "pressure", "--size", "300", "-o", "OUT"},
-       false,
-       true},
+      {"mp4", "m.mp4", movie, false, true},
+      {"webm", "m.webm", movie, false, true},
+      {"gif", "m.gif", movie, false, true},
       {"render", "maps", {"render", "f.h5", "-q", "--map", "pressure", "--size", "300", "-o", "OUT"}, true},
       {"figures", "figs", {"figures", "f.h5", "-q", "--only", "fig04", "-o", "OUT"}, true},
   };

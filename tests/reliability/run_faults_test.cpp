@@ -3,7 +3,6 @@
 /// HDF5, or does not need it, and can be resumed.
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <cerrno>
 #include <cstring>

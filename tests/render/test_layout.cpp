@@ -17,7 +17,10 @@ namespace {
 using test::all_boxes;
 using test::expect_tidy;
 using test::full_view;
+using test::overlap;
 using test::sample_view;
+
+const Font font = embedded_font();
 
 /// Returns views with combinations of options: plain, with all elements, turned, and with parts omitted as in
 /// a panel.
@@ -37,7 +40,6 @@ std::vector<std::pair<std::string, FrameView>> views_of(int columns, int rows) {
 }
 
 TEST(Layout, NothingOverlapsAtAnyWidthInAnyBed) {
-  const Font font = embedded_font();
   for (auto [columns, rows] : {std::pair{200, 46}, {50, 10}, {20, 40}, {4, 3}})
     for (const auto& [name, view] : views_of(columns, rows))
       for (int width : {200, 320, 400, 801, 1600, 4000, 8000}) {
@@ -49,7 +51,6 @@ TEST(Layout, NothingOverlapsAtAnyWidthInAnyBed) {
 }
 
 TEST(Layout, ShowsEverythingThatIsAskedFor) {
-  const Font font = embedded_font();
   for (int width : {200, 400, 1600, 8000}) {
     const Layout layout = lay_out(full_view(200, 46), width, font);
     EXPECT_EQ(layout.bars.size(), 1u);
@@ -69,7 +70,7 @@ TEST(Layout, ShowsEverythingThatIsAskedFor) {
 TEST(Layout, WithoutFurnitureTheBedFillsThePicture) {
   FrameView view = full_view(200, 46);
   view.furniture = false;
-  const Layout layout = lay_out(view, 1600, embedded_font());
+  const Layout layout = lay_out(view, 1600, font);
   const Box& bed = layout.bed.box;
   EXPECT_EQ(bed.x, 0.0);
   EXPECT_EQ(bed.y, 0.0);
@@ -82,12 +83,12 @@ TEST(Layout, WithoutFurnitureTheBedFillsThePicture) {
   EXPECT_NEAR(corner.y, layout.height, 1e-9);
   EXPECT_EQ(all_boxes(layout).size(), 1u);
   view.y_max = 100.0 * view.x_max;
-  EXPECT_THROW(lay_out(view, 1600, embedded_font()), Error);
+  EXPECT_THROW(lay_out(view, 1600, font), Error);
 }
 
 TEST(Layout, HoldsTheWholeBedInItsAspect) {
   const FrameView view = sample_view(200, 46);
-  const Layout layout = lay_out(view, 1600, embedded_font());
+  const Layout layout = lay_out(view, 1600, font);
   const Box& bed = layout.bed.box;
   const Point low = layout.bed.camera.project(view.x_min, view.y_min);
   const Point high = layout.bed.camera.project(view.x_max, view.y_max);
@@ -105,7 +106,7 @@ TEST(Layout, HasRoomForEveryTurnUpToTheLargest) {
   Box first;
   for (double turn : {0.0, 0.2, 0.45, 0.6}) {
     view.turn = turn;
-    const Layout layout = lay_out(view, 900, embedded_font());
+    const Layout layout = lay_out(view, 900, font);
     const Box& box = layout.bed.box;
     if (turn == 0.0) first = box;
     EXPECT_EQ(box.x, first.x);
@@ -126,7 +127,6 @@ TEST(Layout, HasRoomForEveryTurnUpToTheLargest) {
 }
 
 TEST(Layout, TextShrinksBeforeItIsRefused) {
-  const Font font = embedded_font();
   FrameView view = sample_view();
   view.title = std::string(80, 'm');
   EXPECT_LT(lay_out(view, 600, font).em, 10.0);
@@ -135,7 +135,6 @@ TEST(Layout, TextShrinksBeforeItIsRefused) {
 }
 
 TEST(Layout, LettersAreAsLargeAsTheViewAsks) {
-  const Font font = embedded_font();
   FrameView view = sample_view();
   view.letters = 40.0;
   EXPECT_EQ(lay_out(view, 1600, font).em, 40.0);
@@ -145,14 +144,12 @@ TEST(Layout, LettersAreAsLargeAsTheViewAsks) {
 }
 
 TEST(Layout, KeepsToTheFontSizeAllowed) {
-  const Font font = embedded_font();
   EXPECT_EQ(lay_out(sample_view(), 1600, font).em, 18.0);
   EXPECT_EQ(lay_out(sample_view(), 1600, font, {11.5}).em, 11.5);
   EXPECT_EQ(lay_out(sample_view(), 1600, font, {40.0}).em, 18.0);
 }
 
 TEST(Layout, RefusesPicturesThatAreTooSmallOrTooLarge) {
-  const Font font = embedded_font();
   FrameView view = sample_view();
   EXPECT_THROW(lay_out(view, smallest_width - 1, font), Error);
   EXPECT_THROW(lay_out(view, largest_side + 1, font), Error);
@@ -161,7 +158,7 @@ TEST(Layout, RefusesPicturesThatAreTooSmallOrTooLarge) {
 }
 
 TEST(Layout, TracesStandWhereTheirValuesAre) {
-  const Layout layout = lay_out(full_view(), 1600, embedded_font());
+  const Layout layout = lay_out(full_view(), 1600, font);
   const PlacedTrace& trace = layout.traces.at(0);
   const Box& box = trace.box;
   const Trace sample = test::sample_trace("");
@@ -186,14 +183,13 @@ TEST(Layout, LeavesOutLabelsOfTracesThatWouldTouch) {
   crowded.event = 1.0;  // above the title
   view.traces = {crowded};
   for (int width : {400, 1600}) {
-    const Layout layout = lay_out(view, width, embedded_font());
+    const Layout layout = lay_out(view, width, font);
     expect_tidy(layout, std::to_string(width) + " px");
     for (const PlacedText& text : layout.texts) EXPECT_NE(text.text, "θ_c");
   }
 }
 
 TEST(Layout, ATraceMayBeEmptyFlatOrBroken) {
-  const Font font = embedded_font();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   FrameView view = sample_view();
   Trace none, flat = test::sample_trace("flat"), broken = test::sample_trace("broken");
@@ -212,7 +208,6 @@ TEST(Layout, ATraceMayBeEmptyFlatOrBroken) {
 }
 
 TEST(Layout, GravityArrowPointsAlongGravity) {
-  const Font font = embedded_font();
   for (double turn : {0.0, 0.1, 0.3}) {
     FrameView view = sample_view();
     view.tilt = 0.3;
@@ -226,7 +221,7 @@ TEST(Layout, GravityArrowPointsAlongGravity) {
 
 FrameView curves_alone() {
   FrameView view;
-  view.letters = test::sample_view().letters;
+  view.letters = sample_view().letters;
   view.traces = {test::sample_trace("p_o"), test::sample_trace("Γ")};
   return view;
 }
@@ -249,10 +244,6 @@ Box extent_of(const Layout& layout) {
   return box;
 }
 
-bool overlap(const Box& a, const Box& b) {
-  return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
-}
-
 void expect_apart(const Sheet& sheet) {
   for (std::size_t k = 0; k < sheet.views.size(); ++k) {
     const Box box = extent_of(sheet.views[k].layout);
@@ -266,11 +257,10 @@ void expect_apart(const Sheet& sheet) {
 }
 
 TEST(Sheet, RowsStandBelowEachOtherWithLevelBeds) {
-  FrameView longer = test::sample_view();
+  FrameView longer = sample_view();
   longer.title = "A title that is much too long for its half of the sheet, so that it takes two lines";
-  const std::vector<std::vector<FrameView>> rows = {{test::sample_view(), longer},
-                                                    {test::sample_view(), test::sample_view()}};
-  const Sheet sheet = sheet_of_rows(rows, 1600, embedded_font());
+  const std::vector<std::vector<FrameView>> rows = {{sample_view(), longer}, {sample_view(), sample_view()}};
+  const Sheet sheet = sheet_of_rows(rows, 1600, font);
   ASSERT_EQ(sheet.views.size(), 4u);
   EXPECT_EQ(sheet.width, 1600);
   expect_apart(sheet);
@@ -285,25 +275,23 @@ TEST(Sheet, RowsStandBelowEachOtherWithLevelBeds) {
 }
 
 TEST(Sheet, AViewWithoutABedIsItsTextsAndCurves) {
-  const Layout layout = lay_out(curves_alone(), 800, embedded_font());
+  const Layout layout = lay_out(curves_alone(), 800, font);
   EXPECT_EQ(layout.bed.box.width, 0.0);
   EXPECT_EQ(layout.traces.size(), 2u);
 }
 
 TEST(Sheet, TypeThatWouldBeTooSmallIsRefused) {
-  FrameView view = test::sample_view();
+  FrameView view = sample_view();
   view.title = "A-title-of-one-word-that-cannot-be-broken-into-lines-and-that-takes-a-much-smaller-type";
   view.letters = 40.0;
-  EXPECT_NO_THROW(lay_out(view, 1600, embedded_font()));
+  EXPECT_NO_THROW(lay_out(view, 1600, font));
   view.max_letters = 45.0;
-  EXPECT_THROW(lay_out(view, 1600, embedded_font()), Error);
+  EXPECT_THROW(lay_out(view, 1600, font), Error);
 }
 
 TEST(Arrangement, FillsAGivenSizeWithTheLargestBeds) {
-  const Font font = embedded_font();
   for (const auto& [width, height] : {std::pair{1920, 1080}, {1080, 1920}, {1280, 720}}) {
-    const std::vector<FrameView> views = {test::sample_view(100, 20), test::sample_view(100, 20),
-                                          curves_alone()};
+    const std::vector<FrameView> views = {sample_view(100, 20), sample_view(100, 20), curves_alone()};
     const Arrangement arrangement = arrange({views, views}, width, height, font);
     const Sheet sheet = arranged(views, arrangement, font);
     EXPECT_EQ(sheet.width, width);
@@ -311,47 +299,46 @@ TEST(Arrangement, FillsAGivenSizeWithTheLargestBeds) {
     expect_apart(sheet);
     EXPECT_GE(arrangement.cell, width / 3) << "at least as large as all views side by side";
   }
-  const std::vector<FrameView> one = {test::sample_view(100, 20)};
+  const std::vector<FrameView> one = {sample_view(100, 20)};
   EXPECT_GT(arrange({one}, 1080, 1920, font).cell, 1050) << "as wide as the given size";
 }
 
 TEST(Arrangement, StacksACurveBelowALongBed) {
-  const std::vector<FrameView> views = {test::sample_view(40, 10), curves_alone()};
-  const Arrangement arrangement = arrange({views}, 1920, 1080, embedded_font());
+  const std::vector<FrameView> views = {sample_view(40, 10), curves_alone()};
+  const Arrangement arrangement = arrange({views}, 1920, 1080, font);
   EXPECT_GT(arrangement.cell, 1800) << "nearly as wide as the movie, not half of it";
-  const Sheet sheet = arranged(views, arrangement, embedded_font());
+  const Sheet sheet = arranged(views, arrangement, font);
   const std::vector<PlacedTrace>& traces = sheet.views[1].layout.traces;
   EXPECT_GT(traces[0].box.height, 0.0);
-  const std::vector<FrameView> tall = {test::sample_view(40, 10), curves_alone()};
-  const Sheet poster = arranged(tall, arrange({tall}, 1080, 1920, embedded_font()), embedded_font());
+  const std::vector<FrameView> tall = {sample_view(40, 10), curves_alone()};
+  const Sheet poster = arranged(tall, arrange({tall}, 1080, 1920, font), font);
   EXPECT_GT(poster.views[1].layout.traces[0].box.height, 8.0 * poster.views[1].layout.em)
       << "curves take the room that is left";
 }
 
 TEST(Sheet, ATurnedRowMovesUpAlongTheSlopeOfTheOneAbove) {
-  FrameView turned = test::sample_view(40, 5);
+  FrameView turned = sample_view(40, 5);
   turned.scale_label.clear();
   turned.legends.clear();
   turned.title = "(a)";
   turned.turn = turned.turn_max = 0.35;
-  const Sheet sheet = sheet_of_rows({{turned}, {turned}}, 1600, embedded_font());
+  const Sheet sheet = sheet_of_rows({{turned}, {turned}}, 1600, font);
   const Box &above = sheet.views[0].layout.bed.box, &below = sheet.views[1].layout.bed.box;
   EXPECT_LT(below.y, above.bottom()) << "their boxes overlap";
   EXPECT_GT(room_between(sheet.views[0].layout, sheet.views[1].layout, 1600), 0.0) << "the beds do not";
 }
 
 TEST(Layout, TheArrowOfGravityIsBesideTheCaptionOrTheScaleBar) {
-  FrameView view = test::sample_view();
-  const Layout below = lay_out(view, 1600, embedded_font());
+  FrameView view = sample_view();
+  const Layout below = lay_out(view, 1600, font);
   EXPECT_GT(below.arrow.y, below.bed.box.bottom());
   view.arrow_in_caption = true;
-  const Layout above = lay_out(view, 1600, embedded_font());
+  const Layout above = lay_out(view, 1600, font);
   EXPECT_LT(above.arrow.bottom(), above.bed.box.y);
 }
 
 TEST(Arrangement, HoldsTheLongestTextOfAllFrames) {
-  const Font font = embedded_font();
-  std::vector<std::vector<FrameView>> frames(30, {test::sample_view(40, 20)});
+  std::vector<std::vector<FrameView>> frames(30, {sample_view(40, 20)});
   frames[17][0].title =
       "A title that is so long that it takes two lines, if the picture is not wide enough for it";
   const Arrangement arrangement = arrange(frames, 700, 500, font);
@@ -371,8 +358,8 @@ TEST(Arrangement, HoldsTheLongestTextOfAllFrames) {
 }
 
 TEST(Arrangement, ThatCannotBeIsRefused) {
-  const std::vector<FrameView> views = {test::sample_view(40, 30), test::sample_view(40, 30), curves_alone()};
-  EXPECT_THROW(arrange({views}, 400, 200, embedded_font()), Error);
+  const std::vector<FrameView> views = {sample_view(40, 30), sample_view(40, 30), curves_alone()};
+  EXPECT_THROW(arrange({views}, 400, 200, font), Error);
 }
 
 }  // namespace

@@ -114,11 +114,15 @@ struct DrawnBed {
   Camera camera;
 };
 
-TEST(Renderer, FillsDiscsWithTheirColour) {
-  Renderer renderer = renderer_in_memory();
+class RendererTest : public testing::Test {
+ protected:
+  Renderer renderer_ = renderer_in_memory();
+};
+
+TEST_F(RendererTest, FillsDiscsWithTheirColour) {
   const Colour orange{230, 120, 10, 255};
   const FrameView view = view_of({shaded(2, 2, 0.0), {5, 2, 1, orange, black, 0.0f}, shaded(8, 2, 1.0)});
-  const DrawnBed drawn(renderer, view);
+  const DrawnBed drawn(renderer_, view);
   EXPECT_EQ(drawn.image.channels, 3);
   EXPECT_EQ(drawn.colour(2, 2), white);
   EXPECT_EQ(drawn.colour(5, 2), orange);
@@ -130,25 +134,23 @@ TEST(Renderer, FillsDiscsWithTheirColour) {
   EXPECT_LT(drawn.colour(2, 2.99).red, 200) << "a white disc is visible by its rim";
 }
 
-TEST(Renderer, TakesOneChannelWhereAllIsGray) {
-  Renderer renderer = renderer_in_memory();
+TEST_F(RendererTest, TakesOneChannelWhereAllIsGray) {
   FrameView view = view_of({shaded(2, 2, 0.5)});
-  const Image gray_image = renderer.draw(view, 600);
+  const Image gray_image = renderer_.draw(view, 600);
   EXPECT_EQ(gray_image.channels, 1);
   view.coloured = true;
-  const Image image = renderer.draw(view, 600);
+  const Image image = renderer_.draw(view, 600);
   ASSERT_EQ(image.channels, 3);
   for (std::size_t k = 0; k < gray_image.pixels.size(); ++k)
     for (std::size_t channel = 0; channel < 3; ++channel)
       ASSERT_NEAR(image.pixels[3 * k + channel], gray_image.pixels[k], 1) << k;  // blending rounds
 }
 
-TEST(Renderer, CutsDiscsAndLinesAtTheEdgesOfTheBed) {
-  Renderer renderer = renderer_in_memory();
+TEST_F(RendererTest, CutsDiscsAndLinesAtTheEdgesOfTheBed) {
   FrameView view = view_of({shaded(0, 2, 1.0), shaded(10, 2, 1.0), shaded(5, 4, 1.0)});
   view.lines = {{-1, 1, 11, 1, 0.1f, black}};
-  const Image image = renderer.draw(view, 1000);
-  const Window bed = lay_out(view, 1000, renderer.font()).bed;
+  const Image image = renderer_.draw(view, 1000);
+  const Window bed = lay_out(view, 1000, renderer_.font()).bed;
   for (double y : {2.0, 1.0}) {
     const double row = bed.camera.project(0, y).y;
     EXPECT_EQ(gray_at(image, bed.box.x, row), 0);
@@ -159,12 +161,11 @@ TEST(Renderer, CutsDiscsAndLinesAtTheEdgesOfTheBed) {
   EXPECT_EQ(gray_at(image, bed.box.x + 0.5 * bed.box.width, bed.box.y - 1), 255);
 }
 
-TEST(Renderer, CutsATurnedBedAtItsOwnEdges) {
-  Renderer renderer = renderer_in_memory();
+TEST_F(RendererTest, CutsATurnedBedAtItsOwnEdges) {
   FrameView view = view_of({shaded(0, 2, 1.0), shaded(10, 2, 1.0), shaded(5, 4, 1.0)});
   view.lines = {{-1, 1, 11, 1, 0.1f, black}};
   view.turn = view.turn_max = 0.4;
-  const DrawnBed drawn(renderer, view);
+  const DrawnBed drawn(renderer_, view);
   for (double y : {2.0, 1.0}) {
     EXPECT_EQ(drawn.gray(0.05, y), 0);
     EXPECT_EQ(drawn.gray(-0.05, y), 255);
@@ -175,11 +176,10 @@ TEST(Renderer, CutsATurnedBedAtItsOwnEdges) {
   EXPECT_EQ(drawn.gray(5, 4.05), 255);
 }
 
-TEST(Renderer, DrawsLinesAboveDiscsInTheirWidth) {
-  Renderer renderer = renderer_in_memory();
+TEST_F(RendererTest, DrawsLinesAboveDiscsInTheirWidth) {
   FrameView view = view_of({shaded(5, 2, 0.0)});
   view.lines = {{4, 2, 6, 2, 0.2f, gray(0.8)}, {1, 0.5f, 9, 0.5f, 0.0f, black}};
-  const DrawnBed drawn(renderer, view);
+  const DrawnBed drawn(renderer_, view);
   EXPECT_EQ(drawn.gray(5, 2), 51);
   EXPECT_EQ(drawn.gray(5, 2.18), 51);
   EXPECT_EQ(drawn.gray(5, 2.23), 255);
@@ -189,13 +189,12 @@ TEST(Renderer, DrawsLinesAboveDiscsInTheirWidth) {
   EXPECT_NEAR(ink, 0.7, 0.2) << "no line is too thin to be visible";
 }
 
-TEST(Renderer, DrawsTheBedAloneWithoutFurniture) {
-  Renderer renderer = renderer_in_memory();
+TEST_F(RendererTest, DrawsTheBedAloneWithoutFurniture) {
   FrameView view = view_of({shaded(0, 2, 1.0)});
   view.furniture = false;
   view.left_wall = view.right_wall = view.floor_line = true;
   view.traces = {test::sample_trace("p_o")};
-  const Image image = renderer.draw(view, 1000);
+  const Image image = renderer_.draw(view, 1000);
   ASSERT_EQ(image.width, 1000);
   ASSERT_EQ(image.height, 400);
   EXPECT_EQ(gray_at(image, 0, 200), 0);
@@ -205,27 +204,25 @@ TEST(Renderer, DrawsTheBedAloneWithoutFurniture) {
   EXPECT_EQ(strays, 0) << "only the disc";
 }
 
-TEST(Renderer, DrawsWallsAndFloorOutsideTheBed) {
-  Renderer renderer = renderer_in_memory();
+TEST_F(RendererTest, DrawsWallsAndFloorOutsideTheBed) {
   FrameView view = view_of({});
   view.left_wall = view.right_wall = view.floor_line = true;
-  const Image image = renderer.draw(view, 1000);
-  const Box bed = lay_out(view, 1000, renderer.font()).bed.box;
+  const Image image = renderer_.draw(view, 1000);
+  const Box bed = lay_out(view, 1000, renderer_.font()).bed.box;
   const double middle = bed.y + 0.5 * bed.height;
   EXPECT_EQ(gray_at(image, bed.x, middle), 255);
   EXPECT_EQ(gray_at(image, bed.x - 1, middle), 0);
   EXPECT_EQ(gray_at(image, bed.right(), middle), 0);
   EXPECT_EQ(gray_at(image, bed.x + 5, bed.bottom()), 0);
   view.left_wall = false;
-  EXPECT_EQ(gray_at(renderer.draw(view, 1000), bed.x - 1, middle), 255);
+  EXPECT_EQ(gray_at(renderer_.draw(view, 1000), bed.x - 1, middle), 255);
 }
 
-TEST(Renderer, BarRunsThroughItsColours) {
-  Renderer renderer = renderer_in_memory();
+TEST_F(RendererTest, BarRunsThroughItsColours) {
   for (ColourMap map : {ColourMap::gray, ColourMap::viridis, ColourMap::diverging}) {
     const FrameView view = sample_view(40, 10, map);
-    const Image image = renderer.draw(view, 1000);
-    const Box bar = lay_out(view, 1000, renderer.font()).bars.at(0).box;
+    const Image image = renderer_.draw(view, 1000);
+    const Box bar = lay_out(view, 1000, renderer_.font()).bars.at(0).box;
     const double y = bar.y + 0.5 * bar.height;
     for (double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
       const Colour seen = pixel(image, bar.x + share * (bar.width - 1.0), y), wanted = colour_at(map, share);
@@ -236,12 +233,11 @@ TEST(Renderer, BarRunsThroughItsColours) {
   }
 }
 
-TEST(Renderer, EveryTextLeavesInk) {
-  Renderer renderer = renderer_in_memory();
+TEST_F(RendererTest, EveryTextLeavesInk) {
   for (int width : {400, 1600}) {
     const FrameView view = full_view();
-    const Image image = renderer.draw(view, width);
-    for (const PlacedText& text : lay_out(view, width, renderer.font()).texts) {
+    const Image image = renderer_.draw(view, width);
+    for (const PlacedText& text : lay_out(view, width, renderer_.font()).texts) {
       int darkest = 255;
       for (double y = text.box.y; y < text.box.bottom(); y += 1.0)
         for (double x = text.box.x; x < text.box.right(); x += 1.0)
@@ -251,25 +247,23 @@ TEST(Renderer, EveryTextLeavesInk) {
   }
 }
 
-TEST(Renderer, MarksTheFrameOnItsTrace) {
-  Renderer renderer = renderer_in_memory();
+TEST_F(RendererTest, MarksTheFrameOnItsTrace) {
   FrameView view = sample_view();
   view.traces = {test::sample_trace("p_o")};
-  const Image image = renderer.draw(view, 1600);
-  const PlacedTrace trace = lay_out(view, 1600, renderer.font()).traces.at(0);
+  const Image image = renderer_.draw(view, 1600);
+  const PlacedTrace trace = lay_out(view, 1600, renderer_.font()).traces.at(0);
   EXPECT_EQ(gray_at(image, trace.mark.x, trace.mark.y), 0);
   EXPECT_LT(gray_at(image, trace.event, trace.box.y + 2.0), 64) << "the dashes at the event";
   EXPECT_LT(gray_at(image, trace.curve.at(20).x, trace.curve.at(20).y), 64) << "the curve";
   EXPECT_EQ(gray_at(image, trace.curve.at(20).x, trace.curve.at(20).y - 20.0), 255);
 }
 
-TEST(Renderer, ClearGroundUnderTheSamePicture) {
-  Renderer renderer = renderer_in_memory();
+TEST_F(RendererTest, ClearGroundUnderTheSamePicture) {
   FrameView view = full_view();
   view.turn = view.turn_max = 0.1;
-  const Image opaque = renderer.draw(view, 700);
+  const Image opaque = renderer_.draw(view, 700);
   view.transparent = true;
-  const Image clear = renderer.draw(view, 700);
+  const Image clear = renderer_.draw(view, 700);
   ASSERT_EQ(clear.channels, 4);
   EXPECT_EQ(pixel(clear, 1, 1).alpha, 0);
   int worst = 0, nothing = 0;
@@ -422,14 +416,13 @@ TEST(Renderer, AsksItsTargetForOneWholePicture) {
   EXPECT_TRUE(recording.texts.empty());
 }
 
-TEST(Renderer, LooksAsBefore) {
-  Renderer renderer = renderer_in_memory();
+TEST_F(RendererTest, LooksAsBefore) {
   FrameView turned = full_view(60, 12);
   turned.turn = 0.15;
   turned.turn_max = 0.2;
-  test::expect_golden(renderer.draw(sample_view(60, 12), 400), "picture_plain");
-  test::expect_golden(renderer.draw(full_view(60, 12), 400), "picture_full");
-  test::expect_golden(renderer.draw(turned, 400), "picture_turned");
+  test::expect_golden(renderer_.draw(sample_view(60, 12), 400), "picture_plain");
+  test::expect_golden(renderer_.draw(full_view(60, 12), 400), "picture_full");
+  test::expect_golden(renderer_.draw(turned, 400), "picture_turned");
 }
 
 TEST(GlObjects, SayWhichShaderDoesNotCompile) {

@@ -8,7 +8,6 @@
 
 #include "contact/detection.h"
 #include "core/random.h"
-#include "core/trigonometry.h"
 #include "dynamics/bed.h"
 #include "dynamics/step.h"
 

@@ -3,8 +3,6 @@
 
 #include "io/run_file.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

@@ -206,9 +206,7 @@ TEST(AveragesCsv, has_a_row_for_each_quantity_at_each_angle_with_values) {
   EXPECT_TRUE(test::has(text, "\"a, b\",over_tilt,3,contacts/coordination_number,1,1,3,,,,,3,3,3\n"));
   EXPECT_FALSE(test::has(text, "before_failure,0,")) << "no member has a value there";
   EXPECT_FALSE(test::has(text, "gamma/density")) << "lists are in ensemble.h5";
-  int rows = 0;
-  for (std::size_t at = 0; (at = text.find("coordination_number,", at)) != std::string::npos; ++at) ++rows;
-  EXPECT_EQ(rows, 4 + 3);
+  EXPECT_EQ(test::count_of(text, "coordination_number,"), 4u + 3u);
 }
 
 class AveragesFile : public testing::Test {

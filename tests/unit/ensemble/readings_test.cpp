@@ -8,7 +8,6 @@
 #include <fstream>
 
 #include "base/hash.h"
-#include "core/snapshot.h"
 #include "ensemble/member_results.h"
 #include "ensemble/member_state.h"
 #include "ensemble/member_task.h"

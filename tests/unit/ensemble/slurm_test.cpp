@@ -9,6 +9,7 @@
 #include <span>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "io/run_folder.h"
 #include "support/exit_code.h"
 #include "support/has.h"
@@ -52,21 +53,10 @@ TEST(SlurmScript, of_a_task_without_end_has_no_limit) {
 TEST(SbatchWords, name_no_path_and_end_with_the_options_of_the_user) {
   const std::vector<std::string> words =
       sbatch_arguments(array_in("/shared/-x"), {"--partition=long", "-A", "me"});
-  const std::vector<std::string> expected = {"sbatch",
-                                             "--parsable",
-                                             "--array=1-3",
-                                             "--ntasks=1",
-                                             "--requeue",
-                                             "--open-mode=append",
-                                             "--signal=B:USR1@60",
-                                             "--job-name=-x",
-                                             "--output=workers/slurm-%A_%a.log",
-                                             "--time=04:00:00",
-                                             "--partition=long",
-                                             "-A",
-                                             "me",
-                                             "slurm/job.sh"};
-  EXPECT_EQ(words, expected);
+  EXPECT_EQ(
+      joined(words, "|"),
+      "sbatch|--parsable|--array=1-3|--ntasks=1|--requeue|--open-mode=append|--signal=B:USR1@60|"
+      "--job-name=-x|--output=workers/slurm-%A_%a.log|--time=04:00:00|--partition=long|-A|me|slurm/job.sh");
 }
 
 TEST(SbatchWords, let_slurm_write_no_log_where_it_would_mistake_the_folder) {

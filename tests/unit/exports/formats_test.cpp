@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/core.h>
-#include <numbers>
 #include <set>
 #include <utility>
 

@@ -45,12 +45,6 @@ class RunPage : public testing::Test {
   analysis::Analysis analysis_;
 };
 
-std::size_t count_of(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
-
 TEST_F(RunPage, holds_the_frames_that_are_asked_for) {
   const std::string some = page({0, 3, 6});
   EXPECT_TRUE(test::has(some, "\"numbers\":[0,3,6]"));
@@ -139,8 +133,8 @@ TEST_F(RunPage, needs_nothing_but_itself) {
     return match;
   }();
   EXPECT_TRUE(found.empty()) << found.str();
-  EXPECT_EQ(count_of(text, "{{"), 0U) << "the template is filled completely";
-  EXPECT_EQ(count_of(text, "<script"), count_of(text, "</script>"));
+  EXPECT_EQ(test::count_of(text, "{{"), 0U) << "the template is filled completely";
+  EXPECT_EQ(test::count_of(text, "<script"), test::count_of(text, "</script>"));
   EXPECT_EQ(element(text, "data").find('<'), std::string::npos) << "no text of the run closes its element";
 }
 

@@ -1,7 +1,5 @@
 #include "unit/io/example_run.h"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdlib>
 #include <fmt/core.h>

@@ -14,7 +14,6 @@
 #include "analysis/frame_quantities.h"
 #include "analysis/quantities.h"
 #include "io/packed_file.h"
-#include "io/run_file.h"
 #include "library/simulation.h"
 #include "runs/run_view.h"
 #include "support/exit_code.h"

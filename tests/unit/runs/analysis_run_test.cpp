@@ -391,37 +391,25 @@ TEST(AnalysisParameters, admit_their_defaults_as_text) {
 }
 
 TEST(AnalysisParameters, out_of_range_are_refused) {
-  for (const char* setting : {"threshold_factors=",
-                              "threshold_factors=2,1",
-                              "threshold_factors=1,1",
-                              "threshold_factors=1,,2",
-                              "threshold_factors=1,2,3,4,5",
-                              "threshold_factors=0",
-                              "gamma_c=0",
-                              "gamma_c=1.5",
-                              "gamma_c=nan",
-                              "gamma_c=sin",
-                              "l_min=-1",
-                              "l_min=101",
-                              "l_min=",
-                              "lc_cut=-3",
-                              "lc_cut=30m",
-                              "lc_cut=inf",
-                              "joining=contact",
-                              "averaging=-1",
-                              "averaging=11",
-                              "min_contacts=0",
-                              "sections=0",
-                              "sections=2.5",
-                              "bins=1001",
-                              "event_velocity=0",
-                              "event_velocity=tolerance",
-                              "event_quiet=-1",
-                              "event_displacement=-0.1",
-                              "event_size_min=0",
-                              "bins="})
-    EXPECT_NE(refusal({setting}).find(std::string("--set ") + setting + ": error: key '"), std::string::npos)
-        << refusal({setting});
+  const std::pair<std::string, std::vector<std::string>> wrong[] = {
+      {"threshold_factors", {"", "2,1", "1,1", "1,,2", "1,2,3,4,5", "0"}},
+      {"gamma_c", {"0", "1.5", "nan", "sin"}},
+      {"l_min", {"-1", "101", ""}},
+      {"lc_cut", {"-3", "30m", "inf"}},
+      {"joining", {"contact"}},
+      {"averaging", {"-1", "11"}},
+      {"min_contacts", {"0"}},
+      {"sections", {"0", "2.5"}},
+      {"bins", {"1001", ""}},
+      {"event_velocity", {"0", "tolerance"}},
+      {"event_quiet", {"-1"}},
+      {"event_displacement", {"-0.1"}},
+      {"event_size_min", {"0"}}};
+  for (const auto& [key, values] : wrong)
+    for (const std::string& value : values) {
+      const std::string setting = key + "=" + value, message = refusal({setting});
+      EXPECT_NE(message.find("--set " + setting + ": error: key '"), std::string::npos) << message;
+    }
 }
 
 TEST(AnalysisParameters, are_refused_all_at_once_and_say_what_was_expected) {

@@ -8,10 +8,10 @@
 #include <limits>
 #include <set>
 
-#include "base/errors.h"
 #include "scenario/keys.h"
 #include "scenario/scripted_command.h"
 #include "scenario/text.h"
+#include "support/exit_code.h"
 #include "support/has.h"
 #include "support/key_rows.h"
 #include "support/places.h"
@@ -166,8 +166,6 @@ TEST(TomlText, of_text_has_its_escapes) {
   EXPECT_EQ(toml_text(std::string("caf\xc3\xa9 #1")), "\"caf\xc3\xa9 #1\"");
 }
 
-const std::string root = test::source_folder();
-
 TEST(ScenarioKeys, are_documented_as_they_are) {
   std::string expected;
   for (const ScenarioKey& key : scenario_keys()) expected += row_text(key, toml_text(key.get(Scenario{})));
@@ -187,7 +185,9 @@ TEST(ScenarioKeys, stand_once_and_admit_their_defaults) {
   }
 }
 
-Scenario asset(const std::string& name) { return read_scenario(root + "/assets/scenarios/" + name); }
+Scenario asset(const std::string& name) {
+  return read_scenario(test::source_folder() + "/assets/scenarios/" + name);
+}
 
 /// Returns a bed with mu = 0.5, size ratio 1.5, no restitution, H = 40 D, rough floor, 1 deg/s, 0.001 deg per
 /// step, run to repose.
@@ -227,12 +227,7 @@ const char* const commands =
     "[[command]]\ntime = 2.5\nkind = 'friction'\nx = 0.3\n";
 
 std::string message_of_settings(const std::vector<std::string>& settings) {
-  try {
-    parse_scenario(commands, "s.toml", settings);
-  } catch (const LocatedError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::message_of([&] { parse_scenario(commands, "s.toml", settings); });
 }
 
 TEST(ScriptedCommands, are_read_in_their_order) {

@@ -96,9 +96,7 @@ TEST_F(Branch, begins_with_the_frame_and_goes_on_as_the_run_did) {
 
 /// The schedule at each frame is that of a session at this point.
 TEST_F(Branch, knows_how_the_run_stood_at_each_frame) {
-  Session session(test::small_tilted_bed(3.0));
-  while (session.phase() != Phase::tilt) session.advance();
-  const std::int64_t step = session.world().step;
+  const std::int64_t step = test::tilting(test::small_tilted_bed(3.0)).world().step;
   const std::vector<Command> commands = {{step + 5, CommandKind::friction, -1, 0.4},
                                          {step + 12, CommandKind::tilt_rate, -1, 25.0},
                                          {step + 30, CommandKind::drag, 5, 0.04, 0.05},
@@ -186,8 +184,7 @@ TEST_F(Branch, is_judged_by_the_friction_that_was_set_before_it_began) {
 
 /// Also if the branch has no command.
 TEST_F(Branch, of_a_branch_has_what_was_set_before_the_first) {
-  Session session(test::small_tilted_bed(3.0));
-  while (session.phase() != Phase::tilt) session.advance();
+  const Session session = test::tilting(test::small_tilted_bed(3.0));
   const std::int64_t step = session.world().step;
   const Grains& grains = session.world().grains;
   const std::vector<Command> commands = {{step + 1, CommandKind::friction, -1, 0.9},

@@ -200,12 +200,8 @@ TEST(LammpsDump, that_is_wrong_is_refused_at_its_line) {
             "or an earlier deposition.frame");
   EXPECT_EQ(message_about(snapshot("id x y radius", "1 1 1 0.5\n1 3 1 0.5\n")),
             "d:11:1: error: grain 1 is also in line 10: expected each id once");
-  EXPECT_EQ(message_about(snapshot("x y radius", "1 1 -0.5\n2 1 0.5\n")),
-            "d:10:5: error: radius = -0.5: expected a finite number > 0, in mean diameters D");
   EXPECT_EQ(message_about(snapshot("x y radius", "1 nan 0.5\n2 1 0.5\n")),
             "d:10:3: error: y = \"nan\": expected a finite number, in mean diameters D");
-  EXPECT_EQ(message_about(snapshot("x y radius", "1 1e999 0.5\n2 1 0.5\n")),
-            "d:10:3: error: y = \"1e999\": expected a finite number, in mean diameters D");
   EXPECT_EQ(message_about(snapshot("x y radius", "1 1 0.5\n2 1\n")),
             "d:11:1: error: the line has 2 values: expected 3, one for each column that line 9 names");
   EXPECT_EQ(message_about(snapshot("x y radius", "1 1 0.5\n\n")),
@@ -214,9 +210,6 @@ TEST(LammpsDump, that_is_wrong_is_refused_at_its_line) {
                         "d:9:13: error: the columns are named \"id\", \"x\", \"y\", no column for the size"));
   EXPECT_EQ(message_about("ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n1e99\n"),
             "d:4:1: error: \"1e99\": expected the number of atoms");
-  EXPECT_EQ(message_about("ITEM: TIMESTEP\n7\n"),
-            "d: frame 0 of 1 (timestep 7) is cut off: expected a line such as ITEM: ATOMS id x y radius, "
-            "or the second line of extended XYZ; an earlier deposition.frame may be whole");
   EXPECT_EQ(message_about("ITEM: TIMESTEP\n1\nhello\n"),
             "d:3:1: error: \"hello\": expected a line that starts with ITEM:, as in a dump of LAMMPS");
   for (const char* bounds :

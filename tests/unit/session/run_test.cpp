@@ -11,7 +11,6 @@
 
 #include "core/trigonometry.h"
 #include "io/run_file.h"
-#include "problems/step_problem.h"
 #include "session/frame_state.h"
 #include "session/run_check.h"
 #include "session/run_header.h"
@@ -166,15 +165,6 @@ TEST_F(RollingRun, with_a_moment_that_cannot_be_is_found) {
   const io::RunFile run = test::stored(test::finished(rolling_bed()), folder.path("run.h5"), change);
   for (const std::string& fault : check_run(run, {}).faults) faults += fault + "\n";
   EXPECT_TRUE(test::has(faults, "mu_r (r_a + r_b) f_n, rolling friction allows 1"));
-}
-
-TEST_F(RollingRun, has_no_problem_of_a_step_and_no_admissible_forces) {
-  const io::RunFile run = test::recorded(rolling_bed(), folder.path("run.h5"));
-  for (const test::Refusal& refusal : {test::refusal_of([&] { problems::problem_after_frame(run, 1); }),
-                                       test::refusal_of([&] { problems::frozen_frame(run, 1); })}) {
-    EXPECT_EQ(refusal.code, ExitCode::bad_data);
-    EXPECT_TRUE(test::has(refusal.message, "contact.rolling_friction = 0.2"));
-  }
 }
 
 using scenario::ScriptedCommand;

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "base/errors.h"
 #include "base/hash.h"
 #include "io/run_file.h"

@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "base/errors.h"
-#include "base/hash.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "support/temporary_folder.h"

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "unit/view/opened_view.h"
 #include "view/scene.h"
 

@@ -43,8 +43,7 @@ Packing triangle_with_chain() {
 }
 
 TEST(Coordination, counts_ends_at_free_grains) {
-  const Packing packing = triangle_with_chain();
-  const FrameRecord z = found(measure_coordination, packing);
+  const FrameRecord z = found(measure_coordination, triangle_with_chain());
   EXPECT_EQ(z.coordination_number, 11.0 / 5.0);
   EXPECT_EQ(z.coordination_number_of_all, 11.0 / 6.0);
 }
@@ -52,8 +51,7 @@ TEST(Coordination, counts_ends_at_free_grains) {
 // The end of the chain has one contact; without it, the next grain has one. The triangle keeps 3 * 2 + 1
 // ends.
 TEST(Coordination, without_rattlers_takes_them_away_again_and_again) {
-  const Packing packing = triangle_with_chain();
-  const FrameRecord z = found(measure_coordination, packing);
+  const FrameRecord z = found(measure_coordination, triangle_with_chain());
   EXPECT_EQ(z.coordination_number_without_rattlers, 7.0 / 3.0);
   EXPECT_EQ(z.rattler_fraction, 3.0 / 6.0);
 }
@@ -94,11 +92,8 @@ TEST(MobilisedFriction, is_that_of_the_walls_at_walls_and_that_of_grains_at_the_
 /// Returns a central grain with four neighbours: strong contacts along y, weak ones along x.
 Packing cross(double strong, double weak) {
   Packing packing = empty_packing(10.0, false);
-  add_grain(packing, 5.0, 5.0);
-  add_grain(packing, 6.0, 5.0);
-  add_grain(packing, 4.0, 5.0);
-  add_grain(packing, 5.0, 6.0);
-  add_grain(packing, 5.0, 4.0);
+  for (const auto& [x, y] : {std::pair{5.0, 5.0}, {6.0, 5.0}, {4.0, 5.0}, {5.0, 6.0}, {5.0, 4.0}})
+    add_grain(packing, x, y);
   for (Index i : {1, 2}) add_contact(packing, 0, i, weak);
   for (Index i : {3, 4}) add_contact(packing, 0, i, strong);
   return packing;
@@ -107,8 +102,7 @@ Packing cross(double strong, double weak) {
 // Moments: strong 2 fn along y, weak 2 fn along x. Q of both is 2 (3 - 1), of which strong contacts give 3/2
 // and weak ones -1/2.
 TEST(Networks, share_the_stress) {
-  const Packing packing = cross(3.0, 1.0);
-  const FrameRecord result = found(measure_networks, packing);
+  const FrameRecord result = found(measure_networks, cross(3.0, 1.0));
   EXPECT_EQ(result.mean_normal_force, 2.0);
   EXPECT_EQ(result.strong_share, 0.5);
   EXPECT_EQ(result.strong_share_of_mean_stress, 0.75);
@@ -164,8 +158,7 @@ TEST(CriticalContacts, are_joined_where_they_share_a_grain) {
 }
 
 TEST(CriticalContacts, of_a_frame_where_nothing_slides) {
-  const Packing packing = triangle_with_chain();
-  const FrameRecord critical = found(measure_critical_contacts, packing);
+  const FrameRecord critical = found(measure_critical_contacts, triangle_with_chain());
   EXPECT_EQ(critical.critical_share, 0.0);
   EXPECT_EQ(critical.critical_clusters, 0);
   EXPECT_TRUE(std::isnan(critical.critical_mean));
