@@ -121,7 +121,6 @@ TEST_F(MapCommands, pictures_are_named_by_layers_and_angle) {
 }
 
 TEST_F(MapCommands, values_stored_with_the_run_are_drawn_listed_and_exported) {
-  make_run();
   const std::string path = folder_.path("bed.h5");
   const io::RunFile run = io::RunFile::open(path);
   const std::size_t grains = run.header().statics.radius.size();
