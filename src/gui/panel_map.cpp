@@ -44,7 +44,7 @@ void choose_layers(Gui& gui) {
   auto over = layers.size() > 1 ? std::optional(layers[1]) : std::nullopt;
   if (choose_kind(gui, "overlay", "overlay", "nothing", over)) {
     layers.resize(1);
-    if (over && *over != layers[0]) layers.push_back(*over);
+    if (over && (map.own || *over != layers[0])) layers.push_back(*over);
   }
 }
 

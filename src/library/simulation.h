@@ -27,8 +27,9 @@ namespace talus {
 
 class MeasuredFrame;
 
-/// A simulation must be used by one thread at a time. A forked child may inspect and copy a simulation of its
-/// parent; stepping, changing or recording it throws Error(usage).
+/// A simulation must be used by one thread at a time; different simulations may run in different threads. A
+/// forked child may inspect and copy a simulation of its parent; stepping, changing or recording it throws
+/// Error(usage).
 class Simulation {
  public:
   /// Creates the bed of the scenario before its first step. `text` is the original text of the scenario, for

@@ -184,23 +184,27 @@ std::vector<OwnQuantity> stored_maps(const io::RunFile& run) {
 }
 
 void choose_map(MapSettings& map, const std::string& name, std::span<const OwnQuantity> own) {
+  const auto stored = [own](const std::string& part) {
+    return std::ranges::find(own, part, &OwnQuantity::name);
+  };
   const std::size_t plus = std::min(name.find('+'), name.size());
-  const auto found = std::ranges::find(own, name.substr(0, plus), &OwnQuantity::name);
-  map.own = found == own.end() ? std::nullopt : std::optional(*found);
-  if (!map.own) {
-    map.layers = map_layers(name, own);
-    return;
-  }
-  const MapKind like = map.own->kind == OwnQuantity::Kind::number ? MapKind::pressure : MapKind::rigid;
-  map.layers = map_layers(std::string(map_name(like)) + name.substr(plus), own);
+  const std::string upper = name.substr(std::min(plus + 1, name.size()));
+  if (stored(upper) != own.end())
+    refuse(fmt::format("map '{}': {} is stored with the run, and can only be the lower map", name, upper));
+  const auto lower = stored(name.substr(0, plus));
+  map.own = lower == own.end() ? std::nullopt : std::optional(*lower);
+  map.layers = map.own ? MapLayers() : map_layers(name, own);
+  if (!map.own) return;
+  if (!upper.empty()) map.layers = map_layers(upper, own);
+  if (map.layers.size() > 1) refuse(fmt::format("map '{}': at most two can be overlaid", name));
+  map.layers.insert(map.layers.begin(),
+                    map.own->kind == OwnQuantity::Kind::number ? MapKind::pressure : MapKind::rigid);
 }
 
-MapPlan plan_maps(const MapOptions& options, const std::string& path) {
-  const auto is_of_talus = [](const std::string& name) {
-    return std::ranges::count(map_kinds(), name.substr(0, name.find('+')), map_name) > 0;
-  };
-  if (std::ranges::all_of(options.maps, is_of_talus) || io::run_presence(path) == io::RunPresence::none)
-    return plan_maps(options);
+MapPlan plan_maps(const MapOptions& options, const std::string& path) try {
+  return plan_maps(options);
+} catch (const Error&) {  // the name of a map may be that of values stored with the run
+  if (io::run_presence(path) == io::RunPresence::none) throw;
   return plan_maps(options, stored_maps(io::RunFile::open(path)));
 }
 

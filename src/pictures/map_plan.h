@@ -37,7 +37,7 @@ struct MapPlan {
 /// Makes a plan, in which quantities of scripts are maps too. Throws Error(usage) if an option names
 /// something that does not exist or is out of its range, or two exclude each other.
 MapPlan plan_maps(const MapOptions& options, std::span<const OwnQuantity> own = {});
-/// Makes a plan for the run at `path`, which is opened if it exists and a map is not one of Talus. Throws
+/// Makes a plan for the run at `path`, which is opened if it exists and Talus alone has no such plan. Throws
 /// also the errors of RunFile::open.
 MapPlan plan_maps(const MapOptions& options, const std::string& path);
 

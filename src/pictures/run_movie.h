@@ -17,7 +17,7 @@ struct MovieTiming {
   double every = 0.0;           ///< deg between frames of the run that are drawn; 0: all
   double fps = 10.0;            ///< movie frames per second
   std::optional<double> speed;  ///< deg of tilt per second; if not set, each frame drawn is shown once
-  /// s for which the first and the last frame are held; if not set, the last with a speed for 1 s
+  /// s for which the first and the last frame are held; if not set, 1 s for the last if there is a speed
   std::optional<double> hold;
 };
 

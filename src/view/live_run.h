@@ -91,7 +91,7 @@ class LiveRun final : public FrameSource {
   /// Starts to record a run that is not recorded yet, from its beginning, and returns when the data are on
   /// disk. Throws as RunStore::create does, and Error(usage) if the run is already recorded.
   void record(const std::string& output);
-  /// Commits a checkpoint, if there is an output. A failure is reported in the status.
+  /// Commits a checkpoint, if there is an output, and returns when that is done. The status has a failure.
   void save();
 
   const RunStatics& statics() const;

@@ -131,7 +131,7 @@ class ViewModel {
   /// Returns whether a live run shows a recorded frame.
   bool shows_recorded_frame() const { return held_; }
   void follow();
-  /// Returns the frame nearest to an angle in degrees, or "repose"; throws as frames_at does.
+  /// Returns the frame nearest to an angle in degrees, or "repose". Throws for a live run, and as frames_at.
   std::size_t frame_at_angle(const std::string& angle) const;
   void go_to(Landmark landmark);  ///< does nothing if the run has no such place
   std::optional<std::size_t> place_of(Landmark landmark) const;

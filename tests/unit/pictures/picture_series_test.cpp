@@ -204,6 +204,12 @@ TEST_F(PictureSeriesTest, values_of_scripts_are_maps_by_their_name_on_one_scale)
   options.maps = {"slop"};
   EXPECT_TRUE(test::refuses([&] { plan_maps(options, path); }, ExitCode::usage,
                             {"gamma, ", ", slip", "did you mean 'slip'?"}));
+  options.maps = {"slip+pressure"};
+  EXPECT_EQ(name_of(plan_maps(options, path).maps[0]), "slip+pressure");
+  for (const char* name : {"forces+slip", "slip+slip", "slip+forces+critical"}) {
+    options.maps = {name};
+    EXPECT_TRUE(test::refuses([&] { plan_maps(options, path); }, ExitCode::usage, {name}));
+  }
 }
 
 TEST_F(PictureSeriesTest, ranges_of_motion_fit_the_frames_that_are_drawn) {
