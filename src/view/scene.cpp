@@ -124,8 +124,10 @@ MapKey map_key(const pictures::PictureSeries& series, std::size_t k, std::shared
                std::shared_ptr<const Frame> reference, bool change) {
   const pictures::MapSettings& settings = series.plan.maps[0];
   const bool dyed = pictures::shows(settings.layers, pictures::MapKind::dyed);
-  const std::size_t needed =
-      pictures::shows(settings.layers, pictures::MapKind::clusters) ? k + 1 : std::size_t{dyed};
+  // Frames that were read with another rule give clusters no colours.
+  const bool coloured = pictures::shows(settings.layers, pictures::MapKind::clusters) &&
+                        series.seen_frames.rule == static_cast<const pictures::OverloadRule&>(settings);
+  const std::size_t needed = coloured ? k + 1 : std::size_t{dyed};
   const std::size_t colour_frames = std::min(series.seen_frames.instants.size(), needed);
   return {std::move(frame), std::move(reference), settings, series.extent,
           series.since,     colour_frames,        change};

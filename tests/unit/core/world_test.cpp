@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/hash.h"
+#include "core/snapshot.h"
 #include "core/trigonometry.h"
 
 namespace talus {
@@ -155,6 +156,23 @@ TEST(World, energy_and_rms_velocity_count_rotation_and_leave_out_the_floor) {
   EXPECT_DOUBLE_EQ(kinetic_energy(g), 0.5 * g.mass[0] * 25.0 + 0.5 * g.inertia[1] * 4.0);
   EXPECT_DOUBLE_EQ(rms_velocity(g), std::sqrt((25.0 + 0.1 * 0.1) / 2.0));
   EXPECT_EQ(rms_velocity(Grains{}), 0.0);
+}
+
+TEST(Frame, loses_the_values_of_a_script_with_the_contact_that_they_belong_to) {
+  Frame frame;
+  FrameContacts& contacts = frame.contacts;
+  contacts.fn = {1.0, 0.0, 2.0};
+  for (auto* numbers :
+       {&contacts.nx, &contacts.ny, &contacts.px, &contacts.py, &contacts.ft, &contacts.moment})
+    numbers->resize(3);
+  contacts.a = {0, 0, 1};
+  contacts.b = {1, 2, 2};
+  contacts.shift.resize(3);
+  contacts.status.resize(3);
+  frame.own = {{.values = {4.0, 5.0, 6.0}, .of_grains = false}, {.values = {7.0, 8.0, 9.0}}};
+  remove_open_contacts(frame, 0.5);
+  EXPECT_EQ(frame.own[0].values, (std::vector{4.0, 6.0}));
+  EXPECT_EQ(frame.own[1].values.size(), 3U) << "of grains";
 }
 
 }  // namespace

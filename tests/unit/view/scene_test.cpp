@@ -203,6 +203,8 @@ TEST(Scene, colours_of_clusters_depend_on_the_frames_met) {
   EXPECT_NE(one, two) << "the frame itself was added";
   pictures::add_frame(drawn.pictures, drawn.frame);
   EXPECT_EQ(two, source()) << "later frames change nothing";
+  drawn.pictures.seen_frames.rule.threshold_factor = 2.0;
+  EXPECT_NE(two, source()) << "colours by another rule belong to other clusters";
 }
 
 TEST(Scene, gives_the_reason_where_a_map_cannot_be_drawn) {
