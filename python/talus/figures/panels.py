@@ -175,10 +175,12 @@ def arrange(axes: Sequence[Axes], key: Key | None = None, *, page: Page, above: 
     for _ in range(2):  # the numbers of an axis, and the lines of a title, depend on its length
         height = place(figure, axes, width, height, top + above, below)
         fix_numbers(axes)
+        before = [each.get_title("left") for each in axes]
         for each, title in zip(axes, titles):
             room = each.bbox.width / figure.dpi / CM + GAP
             each.set_title(broken(figure, title, title_of(each).get_fontsize(), room), loc="left")
-    height = place(figure, axes, width, height, top + above, below)
+    if before != [each.get_title("left") for each in axes]:
+        height = place(figure, axes, width, height, top + above, below)
     if top:
         figure.talus_legend.set_bbox_to_anchor((GAP / width, 1 - GAP / height), transform=figure.transFigure)
     shrink_texts(figure, axes)
