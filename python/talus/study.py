@@ -45,23 +45,23 @@ class Quantity(NamedTuple):
 #: Quantities of the bed at an angle: their data sets in /analysis, and their titles and factors in tables. Creep is
 #: computed here.
 OF_BED = {
-    "volume_strain": ("packing/volume_strain", "Volume strain ΔV/V in %", 100.0),
-    "centre_of_mass_strain": ("packing/centre_of_mass_strain", "Strain of the centre of mass Δy/y in %", 100.0),
-    "creep": ("", "Creep in % of H", 100.0),
+    "volume_strain": ("packing/volume_strain", "Volume strain ΔV/V (%)", 100.0),
+    "centre_of_mass_strain": ("packing/centre_of_mass_strain", "Strain of the centre of mass Δy/y (%)", 100.0),
+    "creep": ("", "Creep (% of H)", 100.0),
     "overloaded_fraction": ("overloaded/fraction", "p_o, share of overloaded grains", 1.0),
     "stress_ratio": ("packing/stress_ratio", "Γ = Q/P of the packing", 1.0),
     "coordination_number": ("contacts/coordination_number", "z, coordination number", 1.0),
 }
 #: All results; docs/study.md defines them.
 QUANTITIES = [
-    Quantity("theta_c_deg", "slope", "Angle of repose θ_c in deg"),
+    Quantity("theta_c_deg", "slope", "Angle of repose θ_c (°)"),
     *(Quantity(f"{name}_{group}", group, title, factor)
       for group in ("at_reference", "at_theta_c") for name, (_, title, factor) in OF_BED.items()),
     Quantity("residual_max_rest", "solver", "worst residual at rest"),
     Quantity("residual_max_moving", "solver", "while moving"),
-    Quantity("unconverged_share", "solver", "not converged, in % of steps", 100.0),
+    Quantity("unconverged_share", "solver", "not converged (% of steps)", 100.0),
     Quantity("iterations_per_step", "solver", "iterations per step"),
-    Quantity("wall_s", "solver", "wall time in s"),
+    Quantity("wall_s", "solver", "wall time (s)"),
 ]
 
 
