@@ -110,6 +110,15 @@ def peers(_):
     return markdown(["program", "method", "the same work", "its time", "Talus", "ratio"], rows, text_columns=3)
 
 
+def agreement(_):
+    """How far the solutions of Talus and Siconos of the same step differ. Larger beds are copies of one of these side by side."""
+    rows = [[spaced(row["grains"]), spaced(row["contacts"]), *(row[f"error of {name}"].replace("e-0", "e-") for name in ("Siconos", "Talus")),
+             *(row[column].replace("e-0", "e-") for column in ("v differs, g h", "P differ"))]
+            for row in rows_of_part("siconos")
+            if (row["problem"], row["error"]) == (WARM, "1e-06") and int(row["grains"]) <= int(PAPER)]
+    return markdown(["grains", "contacts", "error of Siconos", "error of Talus", "velocities differ, g h", "impulses differ"], rows, text_columns=0)
+
+
 def pictures(_):
     found = rows_of_part("render")
     rows = []
@@ -122,8 +131,9 @@ def pictures(_):
 def numbers(_):
     """Numbers in the sentences of the page: step.N, a step at 10 deg on N threads, ms; run.STAGE, share of the steps of the paper's run in
     per cent; run.median, its iterations; scale.growth, the largest bed relative to the paper's; siconos.PROBLEM.least, .largest, the ratios
-    over all sizes that Siconos solves; dem.steps.N, of Talus (0) and LAMMPS; view.live and view.replay, .least and .largest pictures per second;
-    view.steps, the same of steps per second, .alone without a window."""
+    over all sizes that Siconos solves; siconos.velocities, the largest difference of velocities in g h;
+    dem.steps.N, of Talus (0) and LAMMPS; view.live and view.replay, .least and .largest pictures per second; view.steps, the same of steps
+    per second, .alone without a window."""
     found = {f"step.{threads}": median_ms(f"steps_at_ten_degrees/threads:{threads}/iterations:200/real_time") for threads in (1, 2)}
     paper = row_of("runs", run="paper-pbc.toml")
     found |= {f"run.{name}": float(paper[f"{name}, % of the steps"]) for name in ("solve", "detect", "assemble", "move", "recall", "store")}
@@ -132,6 +142,7 @@ def numbers(_):
     for name, problem, error in (("cold3", FLAT, "1e-03"), ("cold4", FLAT, "1e-04"), ("warm", WARM, "1e-06")):
         ratios = [float(row["ratio"]) for row in rows_of_part("siconos") if (row["problem"], row["error"]) == (problem, error) and row["ratio"][0].isdigit()]
         found |= {f"siconos.{name}.least": min(ratios), f"siconos.{name}.largest": max(ratios)}
+    found["siconos.velocities"] = max(float(row["v differs, g h"]) for row in rows_of_part("siconos") if (row["problem"], row["error"]) == (WARM, "1e-06"))
     found |= {f"dem.steps.{k}": float(row["steps for a second"]) for k, row in enumerate(rows_of_part("dem"))}
     live = [row for row in rows_of_part("view") if row["pictures/s"]]
     replay = rows_of_part("view", 1)
@@ -141,7 +152,7 @@ def numbers(_):
     return found | {"view.steps.alone": float(row_of("view", display="no drawing")["steps/s"])}
 
 
-TABLES = {"measured-by": machine, "whole-runs": whole_runs, "size": size, "peers": peers, "pictures": pictures}
+TABLES = {"measured-by": machine, "whole-runs": whole_runs, "size": size, "peers": peers, "siconos-agreement": agreement, "pictures": pictures}
 
 
 def draw(path):

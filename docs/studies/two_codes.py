@@ -2,8 +2,10 @@
 """Tilts the same beds, with the same contact forces, by Talus and by the soft contacts of LAMMPS, and compares them.
 
     docs/studies/two_codes.py                          # everything: computes, measures, draws; repeat it after a stop
-    docs/studies/two_codes.py --seeds 1-2 --jobs 2     # fewer beds
-    docs/studies/two_codes.py --only measure           # measures and draws what has been computed
+    docs/studies/two_codes.py compute --seeds 1-2      # fewer beds
+    docs/studies/two_codes.py measure                  # writes the tables of the beds that have been computed
+    docs/studies/two_codes.py means -o FILE.png        # draws the tables
+    docs/studies/two_codes.py maps -o FILE.png         # draws a bed by both codes
 
 Beds of 1200 grains are poured by Talus and brought to rest. From there the same bed is tilted to failure
 
@@ -14,7 +16,7 @@ Beds of 1200 grains are poured by Talus and brought to rest. From there the same
   positions         by Talus from the positions alone,
   lammps-positions  by LAMMPS from the positions alone, 1e5 m g/D.
 
-All are measured by the code below, from positions and contact forces. Runs go to runs/two-codes. Complete ones are not
+All are measured by the code below, from positions and contact forces. Runs go to runs/campaign/two-codes. Complete ones are not
 computed again; a stopped run of Talus is resumed, and one of LAMMPS begins again. Everything takes two to three hours on
 one idle core: a bed 0.2 minutes by Talus, 3 by LAMMPS with 1e5 m g/D, and 9 with 1e6. Needs Debian's lammps, python3-h5py,
 python3-matplotlib and python3-numpy, and the package of build/release/python."""
@@ -49,7 +51,6 @@ MINUTES = {"talus": 0.2, "again": 0.2, "lammps-1e5": 3, "lammps-1e6": 9, "positi
 FLOW, DISTANCE = 0.02, 5.0  # sqrt(g D) and D: a flow of the surface layer, and how far it goes in a failure
 FRICTION = 0.5              # mu
 L_MIN = 3.0                 # D, diameter of the neighbourhood of a grain in gamma
-TABLE_TILTS = (0, 5, 10, 15)  # deg
 MAP_TILT = 15               # deg
 
 
@@ -276,7 +277,7 @@ def pairs_of(beds, states):
     """Returns a row for each code, tilt and quantity: means over the beds that Talus and the code have computed, and the paired
     difference with its standard error."""
     rows = [{"tilt (deg)": "", "quantity": "theta_c (deg)", "code": code, "values": paired(beds, code, "theta_c (deg)")} for code in CODES]
-    for tilt in TABLE_TILTS:
+    for tilt in sorted({row["tilt (deg)"] for row in states}):
         here = [row for row in states if row["tilt (deg)"] == tilt]
         rows += [{"tilt (deg)": tilt, "quantity": name, "code": code, "values": paired(here, code, name)}
                  for code in CODES for name in (here[0] if here else ()) if name not in ("seed", "code", "tilt (deg)")]
@@ -287,7 +288,7 @@ def pairs_of(beds, states):
             own, other = values.T
             row |= {"Talus": own.mean(), "Talus error": error(own), "other": other.mean(), "other error": error(other),
                     "difference": (other - own).mean(), "difference error": error(other - own)}
-    return [row for row in rows if "difference" in row]
+    return [row for row in rows if row["beds"] > 1 and "difference" in row]
 
 
 def paired(rows, code, name):
@@ -314,6 +315,15 @@ def write_rows(path, rows):
         writer.writerows([text(value) for value in row.values()] for row in rows)
 
 
+def read_rows(path):
+    """The rows of a table, their numbers as float, NaN for none."""
+    def value(key, text):
+        return text if key in ("code", "quantity", "version") else float(text or "nan")
+
+    with path.open(newline="", encoding="utf-8") as file:
+        return [{key: value(key, text) for key, text in row.items()} for row in csv.DictReader(file)]
+
+
 # ---- Drawing.
 
 
@@ -323,18 +333,9 @@ PANELS = [("Gamma", r"stress ratio $\Gamma$"), ("p_o", r"overloaded fraction $p_
           ("a_t", "anisotropy of tangential forces $a_t$"), ("displacement", "mean displacement ($D$)")]
 
 
-def means_over_tilt(states, code, name, seeds):
-    """Tilts that all these beds have reached, and means and standard errors of a quantity there."""
-    by_tilt = {}
-    for row in states:
-        if row["code"] == code and row["seed"] in seeds:
-            by_tilt.setdefault(row["tilt (deg)"], []).append(row[name])
-    complete = {tilt: np.array(values) for tilt, values in sorted(by_tilt.items()) if len(values) == len(seeds)}
-    return list(complete), [v.mean() for v in complete.values()], np.nan_to_num([error(v) for v in complete.values()])
-
-
-def draw_means(path, beds, states):
-    """theta_c of single beds against that of Talus, and the means of quantities against the tilt."""
+def draw_means(path, data):
+    """theta_c of single beds against that of Talus, and the means of quantities against the tilt, from the tables."""
+    beds, pairs = read_rows(data / "two-codes-beds.csv"), read_rows(data / "two-codes.csv")
     figure, axes = plt.subplots(2, 4, figsize=(14, 6.4), layout="constrained")
     first, *others = axes.flat
     known = [row["theta_c (deg)"] for row in beds if np.isfinite(row["theta_c (deg)"])]
@@ -345,10 +346,12 @@ def draw_means(path, beds, states):
             first.plot(*angles.T, STYLES[code][1], color=STYLES[code][0], markersize=5, label=label)
     first.set(xlabel=r"$\theta_c$ by Talus (deg)", ylabel=r"$\theta_c$ of the same bed (deg)", xlim=ends, ylim=ends, aspect="equal")
     first.legend(frameon=False, fontsize=8)
-    both = {row["seed"] for row in states if row["code"] == "lammps-1e5"}
+    rows = [row for row in pairs if row["code"] == "lammps-1e5" and np.isfinite(row["tilt (deg)"])]
+    rows = [row for row in rows if row["beds"] == max(each["beds"] for each in rows)]  # before the first of the beds has failed
     for panel, (name, label) in zip(others, PANELS):
-        for code in ("talus", "lammps-1e5"):
-            tilt, mean, spread = means_over_tilt(states, code, name, both)
+        here = [row for row in rows if row["quantity"] == name]
+        for code, column in (("talus", "Talus"), ("lammps-1e5", "other")):
+            tilt, mean, spread = np.array([[row["tilt (deg)"], row[column], row[f"{column} error"]] for row in here]).reshape(-1, 3).T
             panel.errorbar(tilt, mean, spread, fmt=STYLES[code][1] + "-", color=STYLES[code][0], markersize=3.5, linewidth=0.8, capsize=2,
                            label=NAMES.get(code, "Talus"))
         panel.set(xlabel=r"tilt $\theta$ (deg)", ylabel=label)
@@ -394,39 +397,42 @@ def seeds_in(text):
     return [seed for part in ranges for seed in range(int(part[0]), int(part[-1]) + 1)]
 
 
+def compute_all(seeds, codes, settings, jobs, runs, program):
+    """Computes what is missing; the beds of all codes begin with those of Talus."""
+    runs.mkdir(parents=True, exist_ok=True)
+    for code in ["talus"] + [code for code in CODES if code in codes and code != "talus"]:
+        left = [seed for seed in seeds[:CODES[code]] if not is_done(code, seed, runs)]
+        hours = MINUTES[code] * len(left) / jobs / 60
+        print(f"{code}: {len(left)} beds to compute, about {hours:.1f} hours on an idle machine if they have 1200 grains", flush=True)
+        with ThreadPoolExecutor(jobs) as pool:
+            list(pool.map(lambda seed, code=code: compute(code, seed, runs, program, settings), left))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("part", nargs="?", choices=["compute", "measure", "means", "maps"], help="one part [all]")
     parser.add_argument("--seeds", default="1-16", help="beds, e.g. 1-16 or 1-3,8 [%(default)s]")
     parser.add_argument("--codes", nargs="+", default=list(CODES), choices=list(CODES), metavar="CODE", help="codes besides talus [all]")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="change a key of the scenario, e.g. bed.length=30")
     parser.add_argument("--jobs", type=int, default=1, help="runs at a time, each on one core [%(default)s]")
-    parser.add_argument("--only", choices=["compute", "measure"], help="only one of both parts")
-    parser.add_argument("--runs", type=Path, default=ROOT / "runs/two-codes", help="folder of the runs")
+    parser.add_argument("--runs", type=Path, default=ROOT / "runs/campaign/two-codes", help="folder of the runs")
     parser.add_argument("--data", type=Path, default=ROOT / "docs/data", help="folder of the tables")
-    parser.add_argument("--images", type=Path, default=ROOT / "docs/images", help="folder of the figures")
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="picture of the part means or maps")
     parser.add_argument("--talus", default=os.environ.get("TALUS_PROGRAM", str(ROOT / "build/release/talus")))
     arguments = parser.parse_args()
-    seeds, runs = seeds_in(arguments.seeds), arguments.runs.resolve()
-    settings = BED | dict(word.split("=", maxsplit=1) for word in arguments.set)
-    if arguments.only != "measure":
-        runs.mkdir(parents=True, exist_ok=True)
-        codes = ["talus"] + [code for code in CODES if code in arguments.codes and code != "talus"]
-        for code in codes:  # the beds of all codes begin with those of Talus
-            left = [seed for seed in seeds[:CODES[code]] if not is_done(code, seed, runs)]
-            hours = MINUTES[code] * len(left) / arguments.jobs / 60
-            print(f"{code}: {len(left)} beds to compute, about {hours:.1f} hours on an idle machine if they have 1200 grains", flush=True)
-            with ThreadPoolExecutor(arguments.jobs) as pool:
-                list(pool.map(lambda seed, code=code: compute(code, seed, runs, arguments.talus, settings), left))
-    if arguments.only != "compute":
-        for folder in (arguments.data, arguments.images):
-            folder.mkdir(parents=True, exist_ok=True)
+    part, seeds, runs, data = arguments.part, seeds_in(arguments.seeds), arguments.runs.resolve(), arguments.data
+    if part in (None, "compute"):
+        settings = BED | dict(word.split("=", maxsplit=1) for word in arguments.set)
+        compute_all(seeds, arguments.codes, settings, arguments.jobs, runs, arguments.talus)
+    if part in (None, "measure"):
+        data.mkdir(parents=True, exist_ok=True)
         beds, states = measure(seeds, runs)
-        write_rows(arguments.data / "two-codes-beds.csv", beds)
-        write_rows(arguments.data / "two-codes.csv", pairs_of(beds, states))
-        draw_means(arguments.images / "two-codes.png", beds, states)
-        mapped = next((seed for seed in seeds if is_done("talus", seed, runs) and is_done("lammps-1e5", seed, runs)), None)
-        if mapped is not None:
-            draw_maps(arguments.images / "two-codes-maps.png", mapped, runs)
+        write_rows(data / "two-codes-beds.csv", beds)
+        write_rows(data / "two-codes.csv", pairs_of(beds, states))
+    if part in (None, "means"):
+        draw_means(arguments.output or ROOT / "docs/images/two-codes.png", data)
+    if part in (None, "maps"):
+        draw_maps(arguments.output or ROOT / "docs/images/two-codes-maps.png", seeds[0], runs)
 
 
 if __name__ == "__main__":
