@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <thread>
 #include <tuple>
 
 #include "analysis/contacts/contact_network.h"
@@ -123,13 +124,22 @@ std::unique_ptr<AnalysedRun> analysed_run(const std::string& path, const std::ve
                                           int threads, const py::object& progress) {
   runs::AnalysisOptions options;
   options.threads = threads;
+  // The other threads of the analysis do not hold the interpreter, so only this one reports.
+  const std::thread::id caller = std::this_thread::get_id();
+  std::size_t reported = 0, all = 0;
+  const auto report = [&](std::size_t done) {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    progress(done, all);
+    reported = done;
+  };
   if (!progress.is_none())
     options.progress = [&](std::size_t done, std::size_t count) {
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      progress(done, count);
+      all = count;
+      if (std::this_thread::get_id() == caller) report(done);
     };
-  return std::make_unique<AnalysedRun>(
-      AnalysedRun{runs::analysed_run(path, runs::parse_analysis_settings(settings), options)});
+  runs::RunView view = runs::analysed_run(path, runs::parse_analysis_settings(settings), options);
+  if (reported < all) report(all);
+  return std::make_unique<AnalysedRun>(AnalysedRun{std::move(view)});
 }
 
 /// Returns the members of an ensemble.h5.

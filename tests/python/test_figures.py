@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+import threading
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -425,3 +426,13 @@ def test_plots_of_the_window_are_figures(tmp_path):
     assert {path.suffix for path in (tmp_path / "out").iterdir()} == {".csv", ".json", ".pdf", ".png"}
     with pytest.raises(talus.Error, match="exists"):
         plots.main([str(tmp_path / "plots.json"), str(tmp_path / "out"), "talus view"])
+
+
+@pytest.mark.chosen
+def test_progress_of_an_analysis_is_reported_by_the_calling_thread_alone(copied):
+    """The others do not hold the interpreter, and Python 3.13 crashes when they call it."""
+    calls = []
+    figures.read_runs([copied], ["gamma_c=0.31"], threads=2, progress=lambda *counts: calls.append((threading.get_ident(), *counts)))
+    assert {thread for thread, _, _ in calls} == {threading.get_ident()}
+    done = [number for _, number, _ in calls]
+    assert done == sorted(set(done)) and calls[-1][1] == calls[-1][2]
