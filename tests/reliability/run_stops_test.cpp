@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <future>
 #include <set>
+#include <sstream>
+#include <string>
 #include <thread>
 
 #include "io/run_file.h"
@@ -136,6 +139,17 @@ const char* const endless_step =
     "initial_solid_fraction = 0.7\n";
 const char* const long_deposition = "[bed]\nlength = 50\ndepth = 20\n[output]\ncheckpoint_every = 86400\n";
 
+/// Returns the processor time that a process has used, s: on a busy machine it may not run for a while.
+double processor_time(pid_t process) {
+  const std::string text = text_of("/proc/" + std::to_string(process) + "/stat");
+  std::istringstream fields(text.substr(text.rfind(')') + 1));
+  std::string skipped;
+  for (int field = 3; field < 14; ++field) fields >> skipped;
+  double user = 0.0, system = 0.0;
+  fields >> user >> system;
+  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
 class LongRun : public CommandTest {
  protected:
   /// Starts the bed, and returns once the run exists.
@@ -156,9 +170,11 @@ class LongRun : public CommandTest {
 TEST_F(LongRun, leaves_at_once_when_told_twice) {
   const pid_t process = start(endless_step);
   // The first grains touch after some hundred steps, in a step that does not end.
-  for (std::string before = "?"; before != text_of(manifest_); pause(300)) {
+  for (std::string before = "?"; before != text_of(manifest_);) {
     before = text_of(manifest_);
     kill(process, SIGUSR1);
+    const double worked = processor_time(process);
+    ASSERT_TRUE(wait_until([&] { return processor_time(process) > worked + 0.3; }));
   }
   kill(process, SIGTERM);
   pause(100);
