@@ -360,63 +360,6 @@ def force_numbers(_):
     return {f"{key}.{name}": f(values) for key, values in found.items() for name, f in (("min", min), ("mean", statistics.mean), ("max", max))}
 
 
-# ---- Talus and LAMMPS.
-
-
-#: Quantities of two-codes.csv: their names in the tables, and digits.
-OF_TWO_CODES = {"Gamma": ("Gamma", 4), "sigma_t/sigma_n": ("sigma_T/sigma_N", 4), "sigma_xx/sigma_yy": ("sigma_xx/sigma_yy", 3),
-                "p_o": ("p_o", 3), "z": ("z", 3), "phi": ("solid fraction", 4), "a_c": ("a_c, contacts", 3),
-                "a_n": ("a_n, normal forces", 3), "a_t": ("a_t, tangential forces", 3), "sliding": ("sliding contacts", 3),
-                "mobilised": ("mean mobilised friction", 3), "weak": ("forces below a tenth of the mean", 3),
-                "displacement": ("mean displacement, D", 4)}
-
-
-def two_codes_rows(code, tilt):
-    """Rows of two-codes.csv by quantity: of a code at a tilt (deg), or at failure ("")."""
-    return {row["quantity"]: row for row in rows_of("two-codes.csv") if (row["code"], row["tilt (deg)"]) == (code, tilt)}
-
-
-def with_its_error(row, name, digits):
-    return f"{number(row[name]):.{digits}f} ± {number(row[name + ' error']):.{digits}f}" if row else "–"
-
-
-def two_codes(_, tilt):
-    """The state of the beds at a tilt by Talus and by LAMMPS."""
-    soft, stiff, again = (two_codes_rows(code, tilt) for code in ("lammps-1e5", "lammps-1e6", "again"))
-    rows = [[title, with_its_error(soft[name], "Talus", digits), with_its_error(soft[name], "other", digits),
-             *(with_its_error(rows.get(name), "difference", digits) for rows in (soft, stiff, again))]
-            for name, (title, digits) in OF_TWO_CODES.items()]
-    rows.append(["correlation of the normal forces", "", *(with_its_error(rows.get("correlation"), "other", 3) if column else ""
-                                                         for column, rows in enumerate((soft, soft, stiff, again)))])
-    return markdown([f"at {tilt} deg", "Talus", "LAMMPS, 1e5", "LAMMPS, 1e5, less Talus", "LAMMPS, 1e6, less Talus", "Talus again, less Talus"], rows)
-
-
-def two_codes_angles(_):
-    """Angles of failure, paired."""
-    beds = {}
-    for row in rows_of("two-codes-beds.csv"):
-        beds.setdefault(row["code"], {})[row["seed"]] = number(row["theta_c (deg)"])
-    rows = []
-    for code, title in (("lammps-1e5", "LAMMPS, 1e5"), ("lammps-1e6", "LAMMPS, 1e6"), ("again", "Talus again"), ("positions", "Talus, positions alone"),
-                        ("lammps-positions", "LAMMPS, positions alone")):
-        for row in two_codes_rows(code, "").values():
-            differences = [angle - beds["talus"][seed] for seed, angle in beds[code].items()]
-            rms = math.sqrt(statistics.mean(each**2 for each in differences if not math.isnan(each)))
-            rows.append([title, row["beds"], *(with_its_error(row, name, 2) for name in ("Talus", "other", "difference")), f"{rms:.2f}"])
-    return markdown(["second computation", "beds", "theta_c by Talus, deg", "its theta_c, deg", "difference, deg", "rms, deg"], rows)
-
-
-def two_codes_numbers(_):
-    """CODE.QUANTITY@TILT, the mean by this code with its error, .less its difference to Talus, .talus that of Talus for the same beds; theta_c
-    has no tilt. Also .beds."""
-    found = {}
-    for row in rows_of("two-codes.csv"):
-        name = f"{row['code']}.{row['quantity'].removesuffix(' (deg)')}" + (f"@{row['tilt (deg)']}" if row["tilt (deg)"] else "")
-        found |= {f"{name}{suffix}": (number(row[column]), number(row[f"{column} error"]))
-                  for suffix, column in (("", "other"), (".less", "difference"), (".talus", "Talus"))} | {f"{name}.beds": number(row["beds"])}
-    return found
-
-
 # ---- Tolerances.
 
 
@@ -476,7 +419,7 @@ def measured(beds, *groups):
 TABLES = {"measured": measured, "preparation-flat": preparation_flat, "preparation-slope": preparation_slope, "preparation": preparation_manual,
           "directions": directions, "finite-size": finite_size, "time-steps": time_steps, "fifty": fifty, "readings": readings, "walls": walls,
           "smooth-walls": smooth_walls, "metastability": metastability, "dynamic-angle": dynamic_angle, "events": events,
-          "events-by-tilt": events_by_tilt, "announcing-failure": announcing, "cycles": cycles, "forces": forces, "tolerances": tolerances, "two-codes": two_codes, "two-codes-angles": two_codes_angles}
+          "events-by-tilt": events_by_tilt, "announcing-failure": announcing, "cycles": cycles, "forces": forces, "tolerances": tolerances}
 #: Numbers of single reports.
 REPORTS = {"walls": wall_numbers, "readings": reading_numbers, "forces": force_numbers, "ranking": ranking_numbers, "metastability": metastability_numbers,
-           "tolerances": tolerance_numbers, "two-codes": two_codes_numbers}
+           "tolerances": tolerance_numbers}

@@ -178,7 +178,7 @@ def in_processes(jobs: Sequence[Callable[[], None]], processes: int, progress: C
             restore()
             for inherited in pipes:  # otherwise the end of the parent would go unnoticed
                 inherited.close()
-            gc.freeze()  # Python then searches less for garbage, a tenth of the time
+            gc.freeze()  # searching what the processes share, as often as by default, takes a tenth of the time
             gc.set_threshold(50_000)
             for k in iter(pipe.recv, None):
                 jobs[k]()

@@ -30,7 +30,8 @@ NARROW = 12
 #: Settings of matplotlib; those of a style sheet take precedence.
 SETTINGS = {
     "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": 8, "mathtext.fontset": "dejavusans",
-    "axes.labelsize": 8, "axes.titlesize": 7, "axes.titlelocation": "left", "axes.titley": 1.0, "axes.titlepad": 3, "axes.labelpad": 2,
+    "axes.labelsize": 8, "axes.titlesize": 7, "axes.titlelocation": "left", "axes.titlepad": 3, "axes.labelpad": 2,
+    "axes.titley": 1.0,  # otherwise matplotlib searches for their places, which are these
     "xtick.labelsize": 7, "ytick.labelsize": 7, "legend.fontsize": 7, "legend.frameon": False, "legend.handlelength": 2.6,
     "legend.borderpad": 0, "legend.borderaxespad": 0, "legend.labelspacing": 0.35, "legend.columnspacing": 1.6,
     "axes.linewidth": 0.5, "xtick.major.width": 0.5, "ytick.major.width": 0.5, "xtick.minor.width": 0.4,
