@@ -96,9 +96,8 @@ AveragedQuantity average(const Grid& grid, const Quantity& quantity, std::size_t
 std::vector<AveragedQuantity> averaged_quantities(const Grid& grid, std::size_t thresholds) {
   std::vector<AveragedQuantity> all;
   for (const Quantity& quantity : analysis::quantities()) {
-    if (!analysis::is_number_of_frame(quantity) &&
-        !(analysis::is_list_of_frame(quantity) && quantity.unit != "rad"))
-      continue;
+    const bool is_of_frame = analysis::is_number_of_frame(quantity) || analysis::is_list_of_frame(quantity);
+    if (!is_of_frame || quantity.unit == "rad") continue;
     const std::size_t count = analysis::needs_threshold(quantity) ? thresholds : 1;
     for (std::size_t f = 0; f < count; ++f)
       if (AveragedQuantity found = average(grid, quantity, f); found.width > 0)
