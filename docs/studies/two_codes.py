@@ -14,16 +14,19 @@ Beds of 1200 grains are poured by Talus and brought to rest. From there the same
   lammps-1e5        by LAMMPS with k_n = 1e5 m g/D, from the positions and the contact forces,
   lammps-1e6        the same with 1e6 m g/D,
   positions         by Talus from the positions alone,
-  lammps-positions  by LAMMPS from the positions alone, 1e5 m g/D.
+  lammps-positions  by LAMMPS from the positions alone, 1e5 m g/D,
+  rolling           by Talus from its stored state, with rolling friction from there on, mu_r = 0.05,
+  lammps-rolling    the same by LAMMPS, from the positions and the contact forces, 1e5 m g/D.
 
 All are measured by the code below, from positions and contact forces. Runs go to runs/campaign/two-codes. Complete ones are not
 computed again; a stopped run of Talus is resumed, and one of LAMMPS begins again. Everything takes two to three hours on
-one idle core: a bed 0.2 minutes by Talus, 3 by LAMMPS with 1e5 m g/D, and 9 with 1e6. Needs Debian's lammps, python3-h5py,
+one idle core: a bed MINUTES_TEXT Needs Debian's lammps, python3-h5py,
 python3-matplotlib and python3-numpy, and the package of build/release/python."""
 
 import argparse
 import csv
 import os
+import re
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -44,12 +47,17 @@ from talus.lammps import Bed  # noqa: E402
 
 BED = {"bed.length": 60, "bed.depth": 20, "tilt.rate": 2, "tilt.step": 0.002, "output.frame_every": 1}
 #: Codes, and of how many beds at most; the angle of failure of a single bed is uncertain, so the means need many.
-CODES = {"talus": 1000, "again": 1000, "lammps-1e5": 1000, "lammps-1e6": 8, "positions": 4, "lammps-positions": 4}
+CODES = {"talus": 1000, "again": 1000, "lammps-1e5": 1000, "positions": 4, "lammps-positions": 4, "rolling": 8, "lammps-rolling": 8,
+         "lammps-1e6": 8}
+#: The code with which another is compared, if not with talus.
+REFERENCES = {"lammps-rolling": "rolling"}
 NAMES = {"again": "Talus again", "lammps-1e5": "LAMMPS, $k_n = 10^5$", "lammps-1e6": "LAMMPS, $k_n = 10^6$"}
 #: Minutes on one idle core for a bed, by code.
-MINUTES = {"talus": 0.2, "again": 0.2, "lammps-1e5": 3, "lammps-1e6": 9, "positions": 0.2, "lammps-positions": 3}
+MINUTES = {"talus": 0.2, "again": 0.2, "lammps-1e5": 3, "rolling": 0.3, "lammps-rolling": 10, "lammps-1e6": 9, "positions": 0.2,
+           "lammps-positions": 3}
 FLOW, DISTANCE = 0.02, 5.0  # sqrt(g D) and D: a flow of the surface layer, and how far it goes in a failure
 FRICTION = 0.5              # mu
+ROLLING_FRICTION = 0.05     # mu_r
 L_MIN = 3.0                 # D, diameter of the neighbourhood of a grain in gamma
 MAP_TILT = 15               # deg
 
@@ -63,10 +71,27 @@ def talus_run(program, path, *words):
     subprocess.run([program, "run", *map(str, words), "--threads", "1", "--quiet"], check=True)
 
 
-def lammps_run(folder, run, stiffness, forces):
+def lammps_run(folder, run, stiffness, forces=True, rolling=False):
     """Writes a bed for LAMMPS and tilts it."""
     run.frame_at(0).to_lammps(folder, k_n=stiffness, forces=forces, overwrite=True)
+    if rolling:
+        script = folder / "in.slope"
+        script.write_text(with_rolling(script.read_text()))
     subprocess.run(["lmp", "-in", "in.slope", "-screen", "none"], cwd=folder, check=True, env=os.environ | {"OMP_NUM_THREADS": "1"})
+
+
+def with_rolling(script):
+    """The script with LAMMPS's model "sds" of rolling: a spring and a dashpot, and a moment of mu_roll R_eff f_n at most, where R_eff =
+    r_a r_b / (r_a + r_b). Talus has mu_r (r_a + r_b) f_n, which is the same with mu_roll = 4 mu_r for equal radii. Of the springs, which
+    the step that stretches the tangential ones would roll as well, the first coefficient leaves nothing."""
+    contacts = "pair_style granular\npair_coeff * * hooke ${{kn}} {0} tangential linear_history ${{kt}} 0.5 {1} rolling sds ${{kt}} {2} {3} " \
+        "damping mass_velocity{4}\n"
+    stretch = contacts.format(0, 1000, 0, 1e-12, "")
+    tilt = contacts.format("${damping}", "${mu}", "$(2*v_zeta*sqrt(v_kt))", 4 * ROLLING_FRICTION, " limit_damping")
+    old = re.compile(r"pair_style gran/hooke/history [^\n]*\npair_coeff \* \*\n")
+    changed, count = old.subn(lambda _, each=iter((stretch, tilt)): next(each), script)
+    assert count == 2
+    return changed
 
 
 def scenario_words(seed, settings):
@@ -80,13 +105,16 @@ def compute(code, seed, runs, program, settings):
         talus_run(program, path, *scenario_words(seed, settings))
     elif code == "again":
         talus_run(program, path, "--branch", bed, "--at", "frame0")
+    elif code == "rolling":
+        talus_run(program, path, "--branch", bed, "--at", "frame0", "--set", f"contact.rolling_friction={ROLLING_FRICTION}")
     elif code == "positions":
         given = {"deposition.method": "file", "deposition.file": bed, "deposition.frame": 0}
         talus_run(program, path, *scenario_words(seed, settings | given))
     else:
         with talus.open(bed) as run:
             kind = code.removeprefix("lammps-")
-            lammps_run(path, run, 1e5 if kind == "positions" else float(kind), kind != "positions")
+            stiffness = 1e5 if kind in ("positions", "rolling") else float(kind)
+            lammps_run(path, run, stiffness, kind != "positions", kind == "rolling")
     print(f"{code}, seed {seed}: done", flush=True)
 
 
@@ -251,12 +279,13 @@ def measure(seeds, runs):
     """Returns rows for each bed and code, and for each of their states up to the failure of the first of both."""
     beds, states = [], []
     for seed in (s for s in seeds if is_done("talus", s, runs)):
-        reference, flow = of_talus(path_of("talus", seed, runs))
-        angle = theta_c(*flow)
+        references = {}
         for code in (c for c in CODES if is_done(c, seed, runs)):
             path = path_of(code, seed, runs)
             found, flow = of_lammps(path) if path.is_dir() else of_talus(path)
             own = theta_c(*flow)
+            references[code] = found, own
+            reference, angle = references[REFERENCES.get(code, "talus")]
             beds.append({"seed": seed, "code": code, "theta_c (deg)": own, "version": version_of(path)})
             for tilt in sorted(t for t in found.keys() & reference.keys() if not t > np.fmin(own, angle)):
                 forces = np.corrcoef(*common_forces(reference[tilt], found[tilt]))[0, 1]
@@ -274,8 +303,8 @@ def version_of(path):
 
 
 def pairs_of(beds, states):
-    """Returns a row for each code, tilt and quantity: means over the beds that Talus and the code have computed, and the paired
-    difference with its standard error."""
+    """Returns a row for each code, tilt and quantity: means over the beds that Talus (its run with rolling friction, for one with it) and
+    the code have computed, and the paired difference with its standard error."""
     rows = [{"tilt (deg)": "", "quantity": "theta_c (deg)", "code": code, "values": paired(beds, code, "theta_c (deg)")} for code in CODES]
     for tilt in sorted({row["tilt (deg)"] for row in states}):
         here = [row for row in states if row["tilt (deg)"] == tilt]
@@ -287,14 +316,15 @@ def pairs_of(beds, states):
         if len(values) and row["code"] != "talus":
             own, other = values.T
             row |= {"Talus": own.mean(), "Talus error": error(own), "other": other.mean(), "other error": error(other),
-                    "difference": (other - own).mean(), "difference error": error(other - own)}
+                    "difference": (other - own).mean(), "difference error": error(other - own),
+                    "rms": np.sqrt(((other - own) ** 2).mean())}
     return [row for row in rows if row["beds"] > 1 and "difference" in row]
 
 
 def paired(rows, code, name):
     """The values of Talus and of a code for the beds that both have, (beds, 2)."""
-    values = {(row["code"], row["seed"]): row[name] for row in rows}
-    both = [(values["talus", seed], value) for (c, seed), value in values.items() if c == code and ("talus", seed) in values]
+    values, reference = {(row["code"], row["seed"]): row[name] for row in rows}, REFERENCES.get(code, "talus")
+    both = [(values[reference, seed], value) for (c, seed), value in values.items() if c == code and (reference, seed) in values]
     both = np.array(both).reshape(-1, 2)
     return both[np.isfinite(both).all(axis=1)]
 

@@ -137,9 +137,13 @@ def test_contacts_that_are_too_soft_are_refused(run, tmp_path):
 
 
 @pytest.mark.skipif(shutil.which("lmp") is None, reason="LAMMPS is not installed: apt-get install lammps")
-@pytest.mark.parametrize("tilt", [0, 8])
-def test_lammps_continues_a_bed_with_its_forces(run, tmp_path, tilt):
+@pytest.mark.parametrize("tilt, rolling_friction", [(0, None), (8, None), (8, 1e-15)])
+def test_lammps_continues_a_bed_with_its_forces(run, tmp_path, monkeypatch, tilt, rolling_friction):
     run.frame_at(tilt).to_lammps(tmp_path, k_n=1e5)
+    if rolling_friction is not None:
+        monkeypatch.setattr(study, "ROLLING_FRICTION", rolling_friction)
+        script = tmp_path / "in.slope"
+        script.write_text(study.with_rolling(script.read_text()))
     words = ["-var", "end", f"{tilt + 0.05}", "-var", "relax", "5"]
     subprocess.run(["lmp", "-in", "in.slope", "-screen", "none", *words], cwd=tmp_path, check=True)
     own, found = study.of_talus(run.path)[0][tilt], study.of_lammps(tmp_path)[0][0]
