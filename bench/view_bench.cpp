@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/errors.h"
-#include "gui/offscreen.h"
+#include "gui/screen.h"
 #include "program.h"
 
 namespace talus::bench {
