@@ -76,12 +76,16 @@ def machine(_, *parts):
 
 
 def whole_runs(_):
+    def both(measured, unit, estimate):
+        values = [spaced(f"{value:.0f}") if value >= 1000 else f"{value:.3g}" for value in (float(row[measured]), float(row[estimate]))]
+        return f"{values[0]} {unit} ({values[1]})"
+
     rows = []
     for row in rows_of_part("runs"):
-        rows.append([f"`{row['run']}`", row["grains"], f"{row['wall time, s']} s",
+        rows.append([f"`{row['run']}`", spaced(row["grains"]), both("wall time, s", "s", "estimate, s on one core"),
                      ", ".join(spaced(row[f"steps, {phase}"]) for phase in ("deposition", "tilt")),
                      ", ".join(row[f"iterations per step, {phase}"] for phase in ("deposition", "tilt")),
-                     f"{row['memory, MB']} MB", f"{row['file, MB']} MB"])
+                     both("memory, MB", "MB", "estimate, MB of memory"), both("file, MB", "MB", "estimate, MB of file")])
     return markdown(["run", "grains", "wall time", "steps", "iterations per step", "memory", "file"], rows)
 
 
