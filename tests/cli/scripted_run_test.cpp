@@ -64,6 +64,23 @@ TEST_F(ScriptedCommandLine, a_branch_begins_with_a_frame) {
   EXPECT_EQ(info("branch.h5", "branch_of"), "plain.h5");
 }
 
+TEST_F(ScriptedCommandLine, a_branch_may_have_more_or_less_rolling_friction_than_the_run) {
+  take_run(folder_, "free.h5", plain_bed);
+  const auto expect_branch = [&](const char* run, const char* rolling_friction, const char* name) {
+    const Outcome branch =
+        talus({"run", "--branch", run, "--at", "frame1", "--set",
+               std::string("contact.rolling_friction=") + rolling_friction, "-q", "-o", name});
+    ASSERT_EQ(branch.exit_code, 0) << branch.err;
+    const Outcome check = talus({"check", name});
+    EXPECT_EQ(check.exit_code, 0) << name << ": " << check.out << check.err;
+    EXPECT_EQ(talus({"replay", name}).exit_code, 0) << name;
+  };
+  expect_branch("free.h5", "0.1", "some.h5");
+  expect_branch("some.h5", "0.2", "more.h5");
+  expect_branch("some.h5", "0.01", "less.h5");
+  expect_branch("some.h5", "0", "none.h5");
+}
+
 // In the run the friction is 0.5 up to 2 deg, and 0.3 from there on.
 TEST_F(ScriptedCommandLine, a_branch_takes_the_friction_that_is_given_or_that_of_the_run) {
   ASSERT_EQ(talus({"run", "bed.toml", "-q", "-o", "bed.h5"}).exit_code, 0);
