@@ -23,6 +23,7 @@ def with_error(values, digits, scale=1.0):
         return "–"
     found = summary(value * scale for value in values)
     mean = f"{found['mean']:.{digits}f}"
+    mean = mean if float(mean) else mean.lstrip("-")
     return f"{mean} ± {found['error']:.{digits}f}" if found["n"] > 1 else mean
 
 
@@ -360,6 +361,106 @@ def force_numbers(_):
     return {f"{key}.{name}": f(values) for key, values in found.items() for name, f in (("min", min), ("mean", statistics.mean), ("max", max))}
 
 
+# ---- Talus and LAMMPS.
+
+#: Quantities of two-codes-states.csv: their names in the tables, and digits.
+OF_TWO_CODES = {"Gamma": ("Gamma", 4), "sigma_t/sigma_n": ("sigma_T/sigma_N", 4), "sigma_xx/sigma_yy": ("sigma_xx/sigma_yy", 3),
+                "p_o": ("p_o", 3), "z": ("z", 3), "phi": ("solid fraction", 4), "a_c": ("a_c, contacts", 3),
+                "a_n": ("a_n, normal forces", 3), "a_t": ("a_t, tangential forces", 3), "sliding": ("sliding contacts", 3),
+                "mobilised": ("mean mobilised friction", 3), "weak": ("forces below a tenth of the mean", 3),
+                "displacement": ("mean displacement, D", 4)}
+#: The code with which another is compared, if not with `talus`.
+REFERENCES = {"lammps-rolling": "rolling", "lammps-positions": "positions"}
+
+
+@functools.cache
+def two_codes_values():
+    """Values by code, quantity, with @T that of a tilt of T deg, and seed: lammps-1e5, Gamma@10, 3."""
+    found = {}
+    for name in ("two-codes-beds.csv", "two-codes-states.csv"):
+        for row in rows_of(name):
+            tilt = f"@{row['tilt (deg)']}" if "tilt (deg)" in row else ""
+            for quantity in row.keys() - {"seed", "code", "version", "tilt (deg)"}:
+                if not math.isnan(value := number(row[quantity])):
+                    found.setdefault(row["code"], {}).setdefault(quantity.removesuffix(" (deg)") + tilt, {})[int(row["seed"])] = value
+    return found
+
+
+def both_codes(code, quantity):
+    """The values of Talus and of a code for the beds that both have computed: two lists."""
+    reference, other = (two_codes_values().get(each, {}).get(quantity, {}) for each in (REFERENCES.get(code, "talus"), code))
+    seeds = sorted(reference.keys() & other.keys())
+    return [reference[seed] for seed in seeds], [other[seed] for seed in seeds]
+
+
+def differences(code, quantity):
+    """The values of a code less those of Talus, bed by bed."""
+    return [other - own for own, other in zip(*both_codes(code, quantity), strict=True)]
+
+
+def two_codes(_, tilt):
+    """The state of the beds at a tilt by Talus and by LAMMPS."""
+    rows = []
+    for quantity, (title, digits) in OF_TWO_CODES.items():
+        own, soft = both_codes("lammps-1e5", f"{quantity}@{tilt}")
+        rows.append([title, with_error(own, digits), with_error(soft, digits),
+                     *(with_error(differences(code, f"{quantity}@{tilt}"), digits) for code in ("lammps-1e5", "lammps-1e6", "again"))])
+    for name, title in (("common", "share of Talus's contacts"), ("correlation", "correlation of their f_n with Talus's")):
+        each = (both_codes(code, f"{name}@{tilt}")[1] for code in ("lammps-1e5", "lammps-1e6", "again"))
+        rows.append([title, "", "", *(with_error(values, 3) for values in each)])
+    return markdown([f"at {tilt} deg", "Talus", "LAMMPS, 1e5", "LAMMPS, 1e5, less Talus", "LAMMPS, 1e6, less Talus", "Talus again, less Talus"], rows)
+
+
+def two_codes_angles(_):
+    """Angles of failure of the same beds by Talus and by a second computation."""
+    rows = []
+    for code, title in (("lammps-1e5", "LAMMPS, 1e5"), ("lammps-1e6", "LAMMPS, 1e6"), ("again", "Talus again"), ("positions", "Talus, positions alone"),
+                        ("lammps-positions", "LAMMPS, positions alone, against Talus from them"), ("rolling", "Talus, mu_r = 0.05"),
+                        ("lammps-rolling", "LAMMPS, mu_r = 0.05, against Talus with it")):
+        own, other = both_codes(code, "theta_c")
+        if own:
+            each = differences(code, "theta_c")
+            rows.append([title, str(len(own)), *(with_error(values, 2) for values in (own, other, each)), f"{rms(each):.2f}"])
+    return markdown(["second computation", "beds", "theta_c by Talus, deg", "its theta_c, deg", "difference, deg", "rms, deg"], rows)
+
+
+def two_codes_memory(_):
+    """The beds that were also computed from the positions alone: with the forces and without, by both codes."""
+    values = two_codes_values()
+    codes = {"Talus, with forces": "talus", "LAMMPS, with forces": "lammps-1e5", "Talus, positions": "positions", "LAMMPS, positions": "lammps-positions"}
+    rows = []
+    for tilt in (0, 10, 15):
+        for quantity, digits in (("sigma_xx/sigma_yy", 2), ("Gamma", 3), ("p_o", 3), ("z", 3)):
+            each = [values.get(code, {}).get(f"{quantity}@{tilt}", {}) for code in codes.values()]
+            seeds = set.intersection(*(set(one) for one in each))
+            rows.append([f"{quantity} at {tilt} deg", str(len(seeds)), *(with_error([one[seed] for seed in seeds], digits) for one in each)])
+    return markdown(["quantity", "beds", *codes], rows)
+
+
+def rms(values):
+    return math.sqrt(statistics.mean(value**2 for value in values))
+
+
+def two_codes_programs(_):
+    """One sentence: the programs and the number of beds."""
+    rows = rows_of("two-codes-beds.csv")
+    return f"Computed by {' and '.join(dict.fromkeys(row['version'] for row in rows))}: {len({row['seed'] for row in rows})} beds."
+
+
+def two_codes_numbers(_):
+    """CODE.QUANTITY, the mean by this code with its error; .less, its difference to Talus; .talus, that of Talus for the same beds; .rms, the
+    root mean square of the difference; .beds, their number."""
+    found = {}
+    for code, quantities in two_codes_values().items():
+        for quantity in quantities:
+            own, other = both_codes(code, quantity)
+            if own:
+                means = {"": summary(other), ".less": summary(differences(code, quantity)), ".talus": summary(own)}
+                found |= {f"{code}.{quantity}{suffix}": (mean["mean"], mean["error"]) for suffix, mean in means.items()}
+                found |= {f"{code}.{quantity}.beds": len(own), f"{code}.{quantity}.rms": rms(differences(code, quantity))}
+    return found
+
+
 # ---- Tolerances.
 
 
@@ -419,7 +520,9 @@ def measured(beds, *groups):
 TABLES = {"measured": measured, "preparation-flat": preparation_flat, "preparation-slope": preparation_slope, "preparation": preparation_manual,
           "directions": directions, "finite-size": finite_size, "time-steps": time_steps, "fifty": fifty, "readings": readings, "walls": walls,
           "smooth-walls": smooth_walls, "metastability": metastability, "dynamic-angle": dynamic_angle, "events": events,
-          "events-by-tilt": events_by_tilt, "announcing-failure": announcing, "cycles": cycles, "forces": forces, "tolerances": tolerances}
+          "events-by-tilt": events_by_tilt, "announcing-failure": announcing, "cycles": cycles, "forces": forces, "tolerances": tolerances,
+          "two-codes": two_codes, "two-codes-angles": two_codes_angles, "two-codes-programs": two_codes_programs,
+          "two-codes-memory": two_codes_memory}
 #: Numbers of single reports.
 REPORTS = {"walls": wall_numbers, "readings": reading_numbers, "forces": force_numbers, "ranking": ranking_numbers, "metastability": metastability_numbers,
-           "tolerances": tolerance_numbers}
+           "tolerances": tolerance_numbers, "two-codes": two_codes_numbers}

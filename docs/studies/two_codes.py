@@ -3,8 +3,8 @@
 
     docs/studies/two_codes.py                          # everything: computes, measures, draws; repeat it after a stop
     docs/studies/two_codes.py compute --seeds 1-2      # fewer beds
-    docs/studies/two_codes.py measure                  # writes the tables of the beds that have been computed
-    docs/studies/two_codes.py means -o FILE.png        # draws the tables
+    docs/studies/two_codes.py measure                  # writes the rows of these beds in the tables of docs/data
+    docs/studies/two_codes.py means -o FILE.png        # draws these tables
     docs/studies/two_codes.py maps -o FILE.png         # draws a bed by both codes
 
 Beds of 1200 grains are poured by Talus and brought to rest. From there the same bed is tilted to failure
@@ -19,9 +19,9 @@ Beds of 1200 grains are poured by Talus and brought to rest. From there the same
   lammps-rolling    the same by LAMMPS, from the positions and the contact forces, 1e5 m g/D.
 
 All are measured by the code below, from positions and contact forces. Runs go to runs/campaign/two-codes. Complete ones are not
-computed again; a stopped run of Talus is resumed, and one of LAMMPS begins again. Everything takes two to three hours on
-one idle core: a bed MINUTES_TEXT Needs Debian's lammps, python3-h5py,
-python3-matplotlib and python3-numpy, and the package of build/release/python."""
+computed again; a stopped run of Talus is resumed, and one of LAMMPS begins again. Everything takes about four hours on one idle
+core: a bed 0.2 minutes by Talus, and by LAMMPS 3 with 1e5 m g/D, 9 with 1e6, 10 with rolling friction. Needs Debian's lammps,
+python3-h5py, python3-matplotlib and python3-numpy, and the package of build/release/python."""
 
 import argparse
 import csv
@@ -41,25 +41,27 @@ import numpy as np
 from matplotlib.collections import EllipseCollection
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "build/release/python"))
+sys.path[:0] = [str(ROOT / "build/release/python"), str(ROOT / "docs")]
 import talus  # noqa: E402
+from quoted_numbers import rows_of, summary  # noqa: E402
+from tables import REFERENCES, both_codes  # noqa: E402
 from talus.lammps import Bed  # noqa: E402
 
 BED = {"bed.length": 60, "bed.depth": 20, "tilt.rate": 2, "tilt.step": 0.002, "output.frame_every": 1}
-#: Codes, and of how many beds at most; the angle of failure of a single bed is uncertain, so the means need many.
+#: Codes, and the largest seed of their beds; the angle of failure of a single bed is uncertain, so the means need many.
 CODES = {"talus": 1000, "again": 1000, "lammps-1e5": 1000, "positions": 4, "lammps-positions": 4, "rolling": 8, "lammps-rolling": 8,
          "lammps-1e6": 8}
-#: The code with which another is compared, if not with talus.
-REFERENCES = {"lammps-rolling": "rolling"}
-NAMES = {"again": "Talus again", "lammps-1e5": "LAMMPS, $k_n = 10^5$", "lammps-1e6": "LAMMPS, $k_n = 10^6$"}
+NAMES = {"again": "Talus again", "lammps-1e5": r"LAMMPS, $k_n = 10^5\,mg/D$", "lammps-1e6": r"LAMMPS, $k_n = 10^6\,mg/D$"}
 #: Minutes on one idle core for a bed, by code.
 MINUTES = {"talus": 0.2, "again": 0.2, "lammps-1e5": 3, "rolling": 0.3, "lammps-rolling": 10, "lammps-1e6": 9, "positions": 0.2,
            "lammps-positions": 3}
 FLOW, DISTANCE = 0.02, 5.0  # sqrt(g D) and D: a flow of the surface layer, and how far it goes in a failure
 FRICTION = 0.5              # mu
 ROLLING_FRICTION = 0.05     # mu_r
+LAYER = 2.0                 # D, depth of the layers in which forces are compared
 L_MIN = 3.0                 # D, diameter of the neighbourhood of a grain in gamma
-MAP_TILT = 15               # deg
+MAP_TILTS = 10, 15          # deg
+FORCES = 0.01, 200          # m g, axes
 
 
 # ---- Computing.
@@ -90,7 +92,8 @@ def with_rolling(script):
     tilt = contacts.format("${damping}", "${mu}", "$(2*v_zeta*sqrt(v_kt))", 4 * ROLLING_FRICTION, " limit_damping")
     old = re.compile(r"pair_style gran/hooke/history [^\n]*\npair_coeff \* \*\n")
     changed, count = old.subn(lambda _, each=iter((stretch, tilt)): next(each), script)
-    assert count == 2
+    if count != 2:
+        raise ValueError("in.slope has other contacts than those that are to get rolling friction")
     return changed
 
 
@@ -98,18 +101,18 @@ def scenario_words(seed, settings):
     return [ROOT / "assets/scenarios/paper-pbc.toml", "--seed", seed, *(word for key in settings for word in ("--set", f"{key}={settings[key]}"))]
 
 
-def compute(code, seed, runs, program, settings):
+def compute(code, seed, runs, program):
     """Computes a bed by a code; that of Talus must be there for the others."""
     bed, path = path_of("talus", seed, runs), path_of(code, seed, runs)
     if code == "talus":
-        talus_run(program, path, *scenario_words(seed, settings))
+        talus_run(program, path, *scenario_words(seed, BED))
     elif code == "again":
         talus_run(program, path, "--branch", bed, "--at", "frame0")
     elif code == "rolling":
         talus_run(program, path, "--branch", bed, "--at", "frame0", "--set", f"contact.rolling_friction={ROLLING_FRICTION}")
     elif code == "positions":
         given = {"deposition.method": "file", "deposition.file": bed, "deposition.frame": 0}
-        talus_run(program, path, *scenario_words(seed, settings | given))
+        talus_run(program, path, *scenario_words(seed, BED | given))
     else:
         with talus.open(bed) as run:
             kind = code.removeprefix("lammps-")
@@ -244,7 +247,7 @@ def measured(state, first, gamma_c):
     return {"Gamma": float(talus.stress_ratio(total)),
             "sigma_t/sigma_n": -total[1, 0] / total[1, 1],
             "sigma_xx/sigma_yy": total[0, 0] / total[1, 1],
-            "p_o": (gamma[np.isfinite(gamma)] >= gamma_c).mean(),
+            "p_o": (gamma[np.isfinite(gamma)] >= gamma_c).mean() if np.isfinite(gamma_c) else np.nan,
             "z": between / carrying.sum(),
             "phi": np.pi * (state.r[free] ** 2).sum() / volume(state),
             "a_c": a_c,
@@ -256,13 +259,32 @@ def measured(state, first, gamma_c):
             "displacement": moved}
 
 
-def common_forces(state, other):
-    """The normal forces of the contacts that both states have."""
+def common_contacts(state, other):
+    """The indices of the contacts that both states have, in each."""
     def key(s):
         return np.minimum(s.a, s.b) * len(s.x) + np.maximum(s.a, s.b)
 
     _, i, j = np.intersect1d(key(state), key(other), return_indices=True)
+    return i, j
+
+
+def common_forces(state, other):
+    """The normal forces of the contacts that both states have."""
+    i, j = common_contacts(state, other)
     return state.f_n[i], other.f_n[j]
+
+
+def agreement(state, other):
+    """How many of the contacts of a state another has, and the correlation of their normal forces, each over the mean of the first state
+    at that depth, without which the growth of all forces with the depth would be a correlation."""
+    layer = (contact_heights(state) // LAYER).astype(int)
+    means = np.bincount(layer, state.f_n) / np.maximum(np.bincount(layer), 1)
+    i, j = common_contacts(state, other)
+    return {"common": len(i) / len(state.a), "correlation": np.corrcoef(*(f / means[layer[i]] for f in (state.f_n[i], other.f_n[j])))[0, 1]}
+
+
+def contact_heights(state):
+    return np.maximum((state.y[state.a] + state.y[state.b]) / 2, 0)
 
 
 def path_of(code, seed, runs):
@@ -285,12 +307,12 @@ def measure(seeds, runs):
             found, flow = of_lammps(path) if path.is_dir() else of_talus(path)
             own = theta_c(*flow)
             references[code] = found, own
-            reference, angle = references[REFERENCES.get(code, "talus")]
             beds.append({"seed": seed, "code": code, "theta_c (deg)": own, "version": version_of(path)})
+            base = "rolling" if code == "rolling" else REFERENCES.get(code, "talus")  # has states beyond the failure of `talus`
+            reference, angle = references.get(base, ({}, np.nan))
             for tilt in sorted(t for t in found.keys() & reference.keys() if not t > np.fmin(own, angle)):
-                forces = np.corrcoef(*common_forces(reference[tilt], found[tilt]))[0, 1]
                 values = measured(found[tilt], found[min(found)], np.sin(np.radians(angle)))
-                states.append({"seed": seed, "code": code, "tilt (deg)": tilt, **values, "correlation": forces})
+                states.append({"seed": seed, "code": code, "tilt (deg)": tilt, **values, **agreement(reference[tilt], found[tilt])})
     return beds, states
 
 
@@ -302,56 +324,21 @@ def version_of(path):
         return f"Talus {run.provenance['version']} ({run.provenance['git_hash']})"
 
 
-def pairs_of(beds, states):
-    """Returns a row for each code, tilt and quantity: means over the beds that Talus (its run with rolling friction, for one with it) and
-    the code have computed, and the paired difference with its standard error."""
-    rows = [{"tilt (deg)": "", "quantity": "theta_c (deg)", "code": code, "values": paired(beds, code, "theta_c (deg)")} for code in CODES]
-    for tilt in sorted({row["tilt (deg)"] for row in states}):
-        here = [row for row in states if row["tilt (deg)"] == tilt]
-        rows += [{"tilt (deg)": tilt, "quantity": name, "code": code, "values": paired(here, code, name)}
-                 for code in CODES for name in (here[0] if here else ()) if name not in ("seed", "code", "tilt (deg)")]
-    for row in rows:
-        values = row.pop("values")
-        row |= {"beds": len(values)}
-        if len(values) and row["code"] != "talus":
-            own, other = values.T
-            row |= {"Talus": own.mean(), "Talus error": error(own), "other": other.mean(), "other error": error(other),
-                    "difference": (other - own).mean(), "difference error": error(other - own),
-                    "rms": np.sqrt(((other - own) ** 2).mean())}
-    return [row for row in rows if row["beds"] > 1 and "difference" in row]
-
-
-def paired(rows, code, name):
-    """The values of Talus and of a code for the beds that both have, (beds, 2)."""
-    values, reference = {(row["code"], row["seed"]): row[name] for row in rows}, REFERENCES.get(code, "talus")
-    both = [(values[reference, seed], value) for (c, seed), value in values.items() if c == code and (reference, seed) in values]
-    both = np.array(both).reshape(-1, 2)
-    return both[np.isfinite(both).all(axis=1)]
-
-
-def error(values):
-    return values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else np.nan
-
-
 def write_rows(path, rows):
+    """Writes a table, in which rows of other beds and codes remain."""
     def text(value):
         if isinstance(value, float | np.floating):
             return "" if np.isnan(value) else f"{value:.6g}"
         return str(value)
 
+    made = {(str(row["seed"]), row["code"]) for row in rows}
+    kept = [row for row in (rows_of(path) if path.exists() else []) if (row["seed"], row["code"]) not in made]
+    rows = sorted(kept + rows, key=lambda row: (list(CODES).index(row["code"]), int(row["seed"])))
+    columns = list(dict.fromkeys(key for row in rows for key in row))
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(rows[0])
-        writer.writerows([text(value) for value in row.values()] for row in rows)
-
-
-def read_rows(path):
-    """The rows of a table, their numbers as float, NaN for none."""
-    def value(key, text):
-        return text if key in ("code", "quantity", "version") else float(text or "nan")
-
-    with path.open(newline="", encoding="utf-8") as file:
-        return [{key: value(key, text) for key, text in row.items()} for row in csv.DictReader(file)]
+        writer.writerow(columns)
+        writer.writerows([text(row.get(column, "")) for column in columns] for row in rows)
 
 
 # ---- Drawing.
@@ -363,25 +350,27 @@ PANELS = [("Gamma", r"stress ratio $\Gamma$"), ("p_o", r"overloaded fraction $p_
           ("a_t", "anisotropy of tangential forces $a_t$"), ("displacement", "mean displacement ($D$)")]
 
 
-def draw_means(path, data):
+def draw_means(path):
     """theta_c of single beds against that of Talus, and the means of quantities against the tilt, from the tables."""
-    beds, pairs = read_rows(data / "two-codes-beds.csv"), read_rows(data / "two-codes.csv")
     figure, axes = plt.subplots(2, 4, figsize=(14, 6.4), layout="constrained")
     first, *others = axes.flat
-    known = [row["theta_c (deg)"] for row in beds if np.isfinite(row["theta_c (deg)"])]
+    angles = {code: both_codes(code, "theta_c") for code in NAMES}
+    known = [angle for both in angles.values() for values in both for angle in values]
     ends = [min(known) - 1, max(known) + 1]
     first.plot(ends, ends, color="0.7", linewidth=0.8)
     for code, label in NAMES.items():
-        if len(angles := paired(beds, code, "theta_c (deg)")):
-            first.plot(*angles.T, STYLES[code][1], color=STYLES[code][0], markersize=5, label=label)
+        if angles[code][0]:
+            first.plot(*angles[code], STYLES[code][1], color=STYLES[code][0], markersize=5, label=label)
     first.set(xlabel=r"$\theta_c$ by Talus (deg)", ylabel=r"$\theta_c$ of the same bed (deg)", xlim=ends, ylim=ends, aspect="equal")
     first.legend(frameon=False, fontsize=8)
-    rows = [row for row in pairs if row["code"] == "lammps-1e5" and np.isfinite(row["tilt (deg)"])]
-    rows = [row for row in rows if row["beds"] == max(each["beds"] for each in rows)]  # before the first of the beds has failed
     for panel, (name, label) in zip(others, PANELS):
-        here = [row for row in rows if row["quantity"] == name]
-        for code, column in (("talus", "Talus"), ("lammps-1e5", "other")):
-            tilt, mean, spread = np.array([[row["tilt (deg)"], row[column], row[f"{column} error"]] for row in here]).reshape(-1, 3).T
+        both = {tilt: both_codes("lammps-1e5", f"{name}@{tilt}") for tilt in range(91)}
+        most = max(len(own) for own, _ in both.values())
+        both = {tilt: values for tilt, values in both.items() if len(values[0]) == most}  # before the first of the beds has failed
+        again = {tilt: both_codes("again", f"{name}@{tilt}")[1] for tilt in both}
+        for code, series in (("again", again.values()), ("talus", (own for own, _ in both.values())), ("lammps-1e5", (other for _, other in both.values()))):
+            means = [summary(values) for values in series]
+            tilt, mean, spread = list(both), [each["mean"] for each in means], [each["error"] for each in means]
             panel.errorbar(tilt, mean, spread, fmt=STYLES[code][1] + "-", color=STYLES[code][0], markersize=3.5, linewidth=0.8, capsize=2,
                            label=NAMES.get(code, "Talus"))
         panel.set(xlabel=r"tilt $\theta$ (deg)", ylabel=label)
@@ -392,31 +381,30 @@ def draw_means(path, data):
 
 
 def draw_maps(path, seed, runs):
-    """gamma of the neighbourhoods in the same bed by both codes, and the normal forces of the same contacts."""
-    both = [of_talus(path_of("talus", seed, runs))[0], of_lammps(path_of("lammps-1e5", seed, runs))[0]]
-    tilt = max(t for t in both[0].keys() & both[1].keys() if t <= MAP_TILT)
-    both = [states[tilt] for states in both]
-    figure = plt.figure(figsize=(11, 5), layout="constrained")
-    grid = figure.add_gridspec(2, 2, width_ratios=[2.4, 1])
-    for k, (state, name) in enumerate(zip(both, ("Talus", NAMES["lammps-1e5"]))):
-        axes = figure.add_subplot(grid[k, 0])
+    """gamma of the neighbourhoods in the same bed by both codes at 10 deg, and the normal forces of the same contacts there and at 15 deg."""
+    own, other = of_talus(path_of("talus", seed, runs))[0], of_lammps(path_of("lammps-1e5", seed, runs))[0]
+    figure = plt.figure(figsize=(10, 6.2), layout="constrained")
+    grid = figure.add_gridspec(2, 2, width_ratios=[2.6, 1])
+    maps = []
+    for k, (states, name) in enumerate(((own, "Talus"), (other, NAMES["lammps-1e5"]))):
+        axes, state = figure.add_subplot(grid[k, 0]), states[MAP_TILTS[0]]
         size, centres = np.tile(2 * state.r[state.free], 3), np.stack([state.x, state.y], axis=1)[state.free]
         images = np.concatenate([centres + (shift * state.L, 0) for shift in (-1, 0, 1)])  # grains at an edge are drawn at both
         grains = EllipseCollection(size, size, 0 * size, units="xy", offsets=images, offset_transform=axes.transData,
-                                   array=np.tile(neighbourhood_gamma(state), 3), cmap="YlOrBr", clim=(0, 0.8), edgecolor="0.4",
-                                   linewidth=0.2)
+                                   array=np.tile(neighbourhood_gamma(state), 3), cmap="Greys", clim=(0, 0.8), edgecolor="0.4",
+                                   linewidth=0.3)
         axes.add_collection(grains)
         axes.set(aspect="equal", xlim=(0, state.L), ylim=(-0.5, state.y.max() + 1), ylabel="$y$ ($D$)")
-        axes.set_title(rf"{name}, $\theta$ = {tilt} deg", fontsize=10)
-    axes.set_xlabel("$x$ ($D$)")
-    figure.colorbar(grains, ax=figure.axes, label=r"$\gamma$ within 3 $D$", location="bottom", shrink=0.5)
-    axes = figure.add_subplot(grid[:, 1])
-    own, other = common_forces(*both)
-    axes.loglog(own, other, ".", color="black", markersize=2)
-    ends = [0.01, 2 * max(own.max(), other.max())]
-    axes.plot(ends, ends, color="tab:red", linewidth=0.8)
-    axes.set(xlim=ends, ylim=ends, aspect="equal", xlabel="$f_n$ by Talus ($m g$)", ylabel="$f_n$ by LAMMPS ($m g$)")
-    axes.set_title(f"{len(own)} common contacts", fontsize=10)
+        axes.set_title(rf"{name}, $\theta$ = {MAP_TILTS[0]} deg", fontsize=10)
+        maps.append(axes)
+    maps[-1].set_xlabel("$x$ ($D$)")
+    figure.colorbar(grains, ax=maps, label=r"$\gamma$ of neighbourhoods 3 $D$ wide", location="bottom", aspect=40, shrink=0.5, pad=0.02)
+    for k, tilt in enumerate(MAP_TILTS):
+        axes, forces = figure.add_subplot(grid[k, 1]), common_forces(own[tilt], other[tilt])
+        axes.loglog(*forces, ".", color="black", markersize=2)
+        axes.plot(FORCES, FORCES, color="0.6", linewidth=0.8)
+        axes.set(xlim=FORCES, ylim=FORCES, aspect="equal", xlabel="$f_n$ by Talus ($m g$)", ylabel="$f_n$ by LAMMPS ($m g$)")
+        axes.set_title(f"{len(forces[0])} common contacts, {tilt} deg", fontsize=10)
     figure.savefig(path, dpi=110)
     plt.close(figure)
 
@@ -427,15 +415,15 @@ def seeds_in(text):
     return [seed for part in ranges for seed in range(int(part[0]), int(part[-1]) + 1)]
 
 
-def compute_all(seeds, codes, settings, jobs, runs, program):
+def compute_all(seeds, codes, jobs, runs, program):
     """Computes what is missing; the beds of all codes begin with those of Talus."""
     runs.mkdir(parents=True, exist_ok=True)
     for code in ["talus"] + [code for code in CODES if code in codes and code != "talus"]:
-        left = [seed for seed in seeds[:CODES[code]] if not is_done(code, seed, runs)]
+        left = [seed for seed in seeds if seed <= CODES[code] and not is_done(code, seed, runs)]
         hours = MINUTES[code] * len(left) / jobs / 60
-        print(f"{code}: {len(left)} beds to compute, about {hours:.1f} hours on an idle machine if they have 1200 grains", flush=True)
+        print(f"{code}: {len(left)} beds to compute, about {hours:.1f} hours on an idle machine", flush=True)
         with ThreadPoolExecutor(jobs) as pool:
-            list(pool.map(lambda seed, code=code: compute(code, seed, runs, program, settings), left))
+            list(pool.map(lambda seed, code=code: compute(code, seed, runs, program), left))
 
 
 def main():
@@ -443,24 +431,20 @@ def main():
     parser.add_argument("part", nargs="?", choices=["compute", "measure", "means", "maps"], help="one part [all]")
     parser.add_argument("--seeds", default="1-16", help="beds, e.g. 1-16 or 1-3,8 [%(default)s]")
     parser.add_argument("--codes", nargs="+", default=list(CODES), choices=list(CODES), metavar="CODE", help="codes besides talus [all]")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="change a key of the scenario, e.g. bed.length=30")
     parser.add_argument("--jobs", type=int, default=1, help="runs at a time, each on one core [%(default)s]")
     parser.add_argument("--runs", type=Path, default=ROOT / "runs/campaign/two-codes", help="folder of the runs")
-    parser.add_argument("--data", type=Path, default=ROOT / "docs/data", help="folder of the tables")
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="picture of the part means or maps")
     parser.add_argument("--talus", default=os.environ.get("TALUS_PROGRAM", str(ROOT / "build/release/talus")))
     arguments = parser.parse_args()
-    part, seeds, runs, data = arguments.part, seeds_in(arguments.seeds), arguments.runs.resolve(), arguments.data
+    part, seeds, runs = arguments.part, seeds_in(arguments.seeds), arguments.runs.resolve()
     if part in (None, "compute"):
-        settings = BED | dict(word.split("=", maxsplit=1) for word in arguments.set)
-        compute_all(seeds, arguments.codes, settings, arguments.jobs, runs, arguments.talus)
+        compute_all(seeds, arguments.codes, arguments.jobs, runs, arguments.talus)
     if part in (None, "measure"):
-        data.mkdir(parents=True, exist_ok=True)
         beds, states = measure(seeds, runs)
-        write_rows(data / "two-codes-beds.csv", beds)
-        write_rows(data / "two-codes.csv", pairs_of(beds, states))
+        write_rows(ROOT / "docs/data/two-codes-beds.csv", beds)
+        write_rows(ROOT / "docs/data/two-codes-states.csv", states)
     if part in (None, "means"):
-        draw_means(arguments.output or ROOT / "docs/images/two-codes.png", data)
+        draw_means(arguments.output or ROOT / "docs/images/two-codes.png")
     if part in (None, "maps"):
         draw_maps(arguments.output or ROOT / "docs/images/two-codes-maps.png", seeds[0], runs)
 

@@ -165,6 +165,6 @@ def test_the_study_measures_what_talus_measures(run):
         frame.analyse_with(gamma_c=0.2)
         values = study.measured(states[tilt], states[0], 0.2)
         names = {"Gamma": "packing/stress_ratio", "phi": "packing/solid_fraction", "z": "contacts/coordination_number",
-                 "p_o": "overloaded/fraction"}
+                 "p_o": "overloaded/fraction", "a_c": "texture/contacts", "a_n": "texture/normal_forces", "a_t": "texture/tangential_forces"}
         assert {name: values[name] for name in names} == pytest.approx({name: frame[own] for name, own in names.items()}, abs=1e-4)
     assert study.theta_c(*flow) == pytest.approx(run.theta_c, abs=0.05)
