@@ -395,17 +395,6 @@ io::Checkpoint start_of(io::Checkpoint start) {
   return start;
 }
 
-namespace {
-
-/// Lets the moments of contacts begin at 0 where rolling friction begins, or is too small for them, and end
-/// where it ends.
-void start_moments(double mu_r_before, double mu_r, Contacts& contacts) {
-  if (mu_r_before == 0.0 || mu_r < mu_r_before)
-    contacts.moment.assign(mu_r > 0.0 ? contacts.a.size() : 0, 0.0);
-}
-
-}  // namespace
-
 io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k, const Scenario* branch) {
   io::Checkpoint checkpoint;
   checkpoint.world = world_at_frame(run, k);
@@ -420,8 +409,10 @@ io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k, const 
     throw Error(ExitCode::usage, "the run ends with its frame at {} deg: a branch starts from an earlier one",
                 degrees_text(checkpoint.world.tilt, 3));
   const Scenario& next = branch != nullptr ? *branch : course.scenario();
-  start_moments(course.scenario().contact.rolling_friction, next.contact.rolling_friction,
-                checkpoint.world.contacts);
+  // Moments begin at 0 where rolling friction begins or is too small for them, and end where it ends.
+  const double mu_r = next.contact.rolling_friction, before = course.scenario().contact.rolling_friction;
+  Contacts& contacts = checkpoint.world.contacts;
+  if (before == 0.0 || mu_r < before) contacts.moment.assign(mu_r > 0.0 ? contacts.a.size() : 0, 0.0);
   if (!next.commands.empty()) course.follow_script(checkpoint.world.step, schedule);
   store_schedule(schedule, follows_failure(next), checkpoint);
   return checkpoint;
