@@ -137,7 +137,7 @@ def test_contacts_that_are_too_soft_are_refused(run, tmp_path):
 
 
 @pytest.mark.skipif(shutil.which("lmp") is None, reason="LAMMPS is not installed: apt-get install lammps")
-@pytest.mark.parametrize("tilt, rolling_friction", [(0, None), (8, None), (8, 1e-15)])
+@pytest.mark.parametrize("tilt, rolling_friction", [(0, None), (8, None), (8, 1e-15), (8, 0.05)])
 def test_lammps_continues_a_bed_with_its_forces(run, tmp_path, monkeypatch, tilt, rolling_friction):
     run.frame_at(tilt).to_lammps(tmp_path, k_n=1e5)
     if rolling_friction is not None:
