@@ -71,6 +71,7 @@ void level(Maps& pictures) {
 
 void animate(const std::string& path, Maps pictures, int width, int height, double fps) {
   level(pictures);
+  std::ranges::for_each(pictures, pictures::share_row);
   std::vector<pictures::MovieFrame> frames(pictures.size());
   for (std::size_t k = 0; k < frames.size(); ++k) frames[k].frame = k;
   Watch watch;

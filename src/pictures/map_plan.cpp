@@ -203,8 +203,9 @@ void choose_map(MapSettings& map, const std::string& name, std::span<const OwnQu
 
 MapPlan plan_maps(const MapOptions& options, const std::string& path) try {
   return plan_maps(options);
-} catch (const Error&) {  // the name of a map may be that of values stored with the run
-  if (io::run_presence(path) == io::RunPresence::none) throw;
+} catch (const Error& error) {  // the name of a map may be that of values stored with the run
+  if (io::run_presence(path) == io::RunPresence::none)
+    throw Error(error.code(), "{} (and there is no run {})", error.what(), path);
   return plan_maps(options, stored_maps(io::RunFile::open(path)));
 }
 

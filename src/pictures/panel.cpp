@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <optional>
+#include <ranges>
 #include <utility>
 
 #include "base/errors.h"
@@ -73,17 +74,13 @@ bool have_same_legends(const render::FrameView& one, const render::FrameView& ot
 }
 
 /// Reduces repeated furniture. A legend appears only below the last angle, unless that of another angle
-/// differs, and once for maps with equal legends; the scale bar appears below the last map; the angle and the
-/// arrow of gravity appear at the first map of each row.
+/// differs, and once for maps with equal legends; the scale bar appears below the last map.
 void share_furniture(Rows& maps) {
-  for (std::vector<render::FrameView>& row : maps) {
-    const bool last = &row == &maps.back();
-    for (std::size_t map = 0; map < row.size(); ++map) {
-      row[map].arrow_in_caption = maps.size() * row.size() > 1;
-      if (!last || map + 1 < row.size()) row[map].scale_label.clear();
-      if (map > 0 && row[map].caption == row[0].caption) row[map].caption.clear();
-      if (!last && have_same_legends(row[map], maps.back()[map])) row[map].legends.clear();
-    }
+  if (maps.size() * maps.front().size() > 1) std::ranges::for_each(maps, share_row);
+  for (std::vector<render::FrameView>& row : maps | std::views::take(maps.size() - 1)) {
+    row.back().scale_label.clear();
+    for (std::size_t map = 0; map < row.size(); ++map)
+      if (have_same_legends(row[map], maps.back()[map])) row[map].legends.clear();
   }
   std::vector<render::FrameView>& last = maps.back();
   for (std::size_t map = last.size(); map-- > 1;)
@@ -131,6 +128,14 @@ std::string panel_source(const PictureSeries& series, const FrameChoice& choice)
 }
 
 }  // namespace
+
+void share_row(std::vector<render::FrameView>& maps) {
+  for (render::FrameView& map : maps) {
+    map.arrow_in_caption = true;
+    if (&map != &maps.front() && map.caption == maps.front().caption) map.caption.clear();
+    if (&map != &maps.back()) map.scale_label.clear();
+  }
+}
 
 Rows panel_rows(Rows maps, const std::string& title, std::size_t side_by_side) {
   const std::size_t kinds = maps.front().size();

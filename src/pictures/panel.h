@@ -22,6 +22,10 @@ void check_panel(const std::string& path, const MapPlan& plan, const PanelReques
 /// Draws a row for each frame, and returns their number. Throws the errors of frames_at and check_panel.
 std::size_t draw_panel(DrawnRun& run, const PanelRequest& asked);
 
+/// Leaves the angle with the arrow of gravity at the first of some maps in a row, and at those with another
+/// angle, and the scale bar at the last.
+void share_row(std::vector<render::FrameView>& maps);
+
 /// Returns the rows of a panel from its maps (at least one row, one for each angle, all of the same length).
 /// The last argument is the number of angles next to each other. Text that is common to all titles of a map,
 /// and to all captions, appears once above them, with `title` over it. Equal legends, and the scale bar,

@@ -6,6 +6,7 @@
 
 #include "base/errors.h"
 #include "core/trigonometry.h"
+#include "pictures/panel.h"
 #include "render/movie.h"
 #include "render/sheet.h"
 
@@ -42,17 +43,12 @@ std::vector<double> clock_tilts(const PictureSeries& series) {
   return clock;
 }
 
-/// Returns the maps of a frame next to each other. The first has the angle with the arrow of gravity, and the
-/// last the scale bar; the curves appear once, in a separate view.
+/// Returns the maps of a frame next to each other; the curves appear once, in a separate view.
 std::vector<render::FrameView> movie_views(DrawnRun& run, std::size_t frame, bool curves_apart) {
   std::vector<render::FrameView> views;
   for (std::size_t map = 0; map < run.series.plan.maps.size(); ++map)
     views.push_back(picture(run, frame, map));
-  for (render::FrameView& view : views) {
-    view.arrow_in_caption = true;
-    if (&view != &views.front()) view.caption.clear();
-    if (&view != &views.back()) view.scale_label.clear();
-  }
+  share_row(views);
   if (!curves_apart || views.front().traces.empty()) return views;
   render::FrameView curves;
   curves.letters = views.front().letters;

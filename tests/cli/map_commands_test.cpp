@@ -35,6 +35,7 @@ class MapCommands : public CommandTest {
 TEST_F(MapCommands, refuse_what_makes_no_sense_before_they_look_for_the_run) {
   const std::vector<std::pair<Words, std::string>> cases = {
       {{"--map", "gamm"}, "gamma"},
+      {{"--map", "spin"}, "there is no run none.h5"},
       {{"--map", "gamma+forces+critical"}, "two"},
       {{"--map", "gamma,gamma"}, "twice"},
       {{"--map", "gamma", "--colours", "rainbow"}, "its lightness rises and falls"},

@@ -319,6 +319,17 @@ render::FrameView map_of(const std::string& title, int angle, const std::string&
   return view;
 }
 
+TEST(RowOfMaps, has_angle_and_arrow_at_the_first_map_and_the_scale_bar_at_the_last) {
+  std::vector<render::FrameView> maps = {map_of("A", 5, "black"), map_of("B", 5, "black"),
+                                         map_of("C", 6, "black")};
+  share_row(maps);
+  for (const render::FrameView& map : maps) EXPECT_TRUE(map.arrow_in_caption);
+  EXPECT_FALSE(maps[0].caption.empty());
+  EXPECT_TRUE(maps[1].caption.empty());
+  EXPECT_FALSE(maps[2].caption.empty()) << "another angle";
+  EXPECT_TRUE(maps[0].scale_label.empty() && maps[1].scale_label.empty() && !maps[2].scale_label.empty());
+}
+
 /// Returns two maps at two angles.
 std::vector<std::vector<render::FrameView>> four_maps(const std::string& second_legend) {
   std::vector<std::vector<render::FrameView>> maps;
