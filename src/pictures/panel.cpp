@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <optional>
-#include <ranges>
+#include <span>
 #include <utility>
 
 #include "base/errors.h"
@@ -77,7 +77,7 @@ bool have_same_legends(const render::FrameView& one, const render::FrameView& ot
 /// differs, and once for maps with equal legends; the scale bar appears below the last map.
 void share_furniture(Rows& maps) {
   if (maps.size() * maps.front().size() > 1) std::ranges::for_each(maps, share_row);
-  for (std::vector<render::FrameView>& row : maps | std::views::take(maps.size() - 1)) {
+  for (std::vector<render::FrameView>& row : std::span(maps).first(maps.size() - 1)) {
     row.back().scale_label.clear();
     for (std::size_t map = 0; map < row.size(); ++map)
       if (have_same_legends(row[map], maps.back()[map])) row[map].legends.clear();
