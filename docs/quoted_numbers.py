@@ -31,7 +31,11 @@ FIRST_MEMBERS = {"demo:deposition.method=pour": "runs/demo.h5", "demo:deposition
 RUNS = ("demo", "smooth", "collapse", "paper")
 #: Short names of groups.
 SHORT = {"poured": "demo:deposition.method=pour", "collapsed": "demo:deposition.method=collapse",
-         **{f"lowered-{name}": f"dynamic-angle-rates:tilt.lowering_rate={rate}" for name, rate in (("fast", 1), ("half", 0.5), ("slow", 0.2))}}
+         **{f"lowered-{name}": f"dynamic-angle-rates:tilt.lowering_rate={rate}" for name, rate in (("fast", 1), ("half", 0.5), ("slow", 0.2))},
+         **{f"rolling-{name}": f"rolling:contact.rolling_friction={mu_r}"  # in hundredths
+            for name, mu_r in ((0, 0), (1, 0.01), (2, 0.02), (5, 0.05), (10, 0.1), (20, 0.2), (50, 0.5))},
+         **{f"rolling-{name}-mu-{of}": f"rolling-friction:contact.friction={mu},contact.rolling_friction={mu_r}"
+            for name, mu_r in ((0, 0), (5, 0.05), (50, 0.5)) for of, mu in (("low", 0.2), ("high", 1))}}
 
 
 def rows_of(name):
@@ -45,17 +49,21 @@ def number(text):
 
 
 class Beds:
-    """The beds of docs/data/beds.csv, or of another such table, by their group."""
+    """The beds of docs/data/beds.csv by their group, and of groups that only docs/data/next has, those of that table."""
 
-    def __init__(self, path="beds.csv"):
-        self.groups, self.units = {}, {}
-        for row in rows_of(path):
-            values = {}
-            for column, text in row.items():
-                name, _, unit = column.partition(" (")
-                values[name] = text if name in ("beds", "version", "state_hash") else number(text)
-                self.units[name] = unit.rstrip(")")
-            self.groups.setdefault(row["beds"], []).append(values)
+    def __init__(self):
+        self.groups = self.groups_of("beds.csv")
+        later = self.groups_of("next/beds.csv") if (DATA / "next/beds.csv").exists() else {}
+        self.later = later.keys() - self.groups.keys()
+        self.groups = later | self.groups
+
+    @staticmethod
+    def groups_of(table):
+        groups = {}
+        for row in rows_of(table):
+            values = {column.partition(" (")[0]: text if column in ("beds", "version", "state_hash") else number(text) for column, text in row.items()}
+            groups.setdefault(row["beds"], []).append(values)
+        return groups
 
     def values(self, group, quantity):
         """The values of a quantity over the beds that have one, by seed. `A-B` is the difference of two quantities, bed by bed; with
@@ -212,9 +220,10 @@ def outdated(values, program_json, runs):
     computes, or that are not of one revision without changes. `program_json` gives what `talus info --json` prints of a run, for
     those of `runs`."""
     found = []
-    versions = sorted({bed["version"] for beds in values.beds.groups.values() for bed in beds})
-    if len(versions) != 1 or "dirty" in versions[0]:
-        found.append(f"docs/data/beds.csv is of {' and '.join(versions)}, not of one revision without changes: docs/data/campaign run")
+    for table, names in (("beds.csv", values.beds.groups.keys() - values.beds.later), ("next/beds.csv", values.beds.later)):
+        versions = sorted({bed["version"] for name in names for bed in values.beds.groups[name]})
+        if len(versions) > 1 or any("dirty" in version for version in versions):
+            found.append(f"docs/data/{table} is of {' and '.join(versions)}, not of one revision without changes: docs/data/campaign run")
     for group, run in FIRST_MEMBERS.items():
         first = next((bed for bed in values.beds.groups.get(group, []) if bed["seed"] == 1), None)
         if run in runs and first and (state := program_json(run)["state_hash"]) != first["state_hash"]:

@@ -132,6 +132,25 @@ def reading_numbers(_):
             for key, values in found.items()}
 
 
+# ---- Rolling friction.
+
+#: Coefficients of friction, and for each those of rolling friction with their beds (docs/quoted_numbers.py).
+ROLLING = {0.2: {mu_r: f"rolling-{100 * mu_r:g}-mu-low" for mu_r in (0, 0.05, 0.5)},
+           0.5: {mu_r: f"rolling-{100 * mu_r:g}" for mu_r in (0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5)},
+           1.0: {mu_r: f"rolling-{100 * mu_r:g}-mu-high" for mu_r in (0, 0.05, 0.5)}}
+
+
+def rolling(beds):
+    return of_groups(beds, [(f"{mu_r:g}", SHORT[group]) for mu_r, group in ROLLING[0.5].items()], "mu_r", FLAT + ANGLES + OVERLOAD)
+
+
+def rolling_friction(beds):
+    rows = []
+    for mu, groups in ROLLING.items():
+        rows.append([f"{mu:g}", *(with_error(beds.values(SHORT[groups[mu_r]], "theta_c").values(), 1) for mu_r in ROLLING[1.0])])
+    return markdown(["mu", *(f"theta_c with mu_r = {mu_r:g}, deg" for mu_r in ROLLING[1.0])], rows)
+
+
 # ---- Walls.
 
 
@@ -370,7 +389,7 @@ OF_TWO_CODES = {"Gamma": ("Gamma", 4), "sigma_t/sigma_n": ("sigma_T/sigma_N", 4)
                 "mobilised": ("mean mobilised friction", 3), "weak": ("forces below a tenth of the mean", 3),
                 "displacement": ("mean displacement, D", 4)}
 #: The code with which another is compared, if not with `talus`.
-REFERENCES = {"lammps-rolling": "rolling", "lammps-positions": "positions"}
+REFERENCES = {"lammps-rolling": "rolling", "lammps-positions": "positions", "fine": "positions"}
 
 
 @functools.cache
@@ -415,7 +434,8 @@ def two_codes_angles(_):
     """Angles of failure of the same beds by Talus and by a second computation."""
     rows = []
     for code, title in (("lammps-1e5", "LAMMPS, 1e5"), ("lammps-1e6", "LAMMPS, 1e6"), ("again", "Talus again"), ("positions", "Talus, positions alone"),
-                        ("lammps-positions", "LAMMPS, positions alone, against Talus from them"), ("rolling", "Talus, mu_r = 0.05"),
+                        ("lammps-positions", "LAMMPS, positions alone, against Talus from them"),
+                        ("fine", "Talus, positions alone, steps of 0.1 ms, against those of 1 ms"), ("rolling", "Talus, mu_r = 0.05"),
                         ("lammps-rolling", "LAMMPS, mu_r = 0.05, against Talus with it")):
         own, other = both_codes(code, "theta_c")
         if own:
@@ -508,18 +528,21 @@ def tolerance_numbers(_):
     return found
 
 
-def measured(beds, *groups):
-    """One sentence: which beds a report is about, and the program that computed them."""
-    names = [SHORT.get(group, group) for group in groups]
-    versions = {bed["version"] for name in names for bed in beds.groups[name]}
-    each = [f"`{name}` ({len(beds.groups[name])} beds)" for name in names]
+def measured(beds, *names):
+    """One sentence: which beds a report is about, by their groups or ensembles, and the program that computed them."""
+    names = [SHORT.get(name, name) for name in names]
+    members = {name: [bed for group in beds.groups if name in (group, group.split(":")[0]) for bed in beds.groups[group]] for name in names}
+    if missing := [name for name in names if not members[name]]:
+        raise KeyError(f"docs/data/beds.csv has no beds {missing[0]}")
+    versions = {bed["version"] for name in names for bed in members[name]}
+    each = [f"`{name}` ({len(members[name])} beds)" for name in names]
     text = " and ".join(filter(None, [", ".join(each[:-1]), each[-1]]))
     return f"Computed by Talus {' and '.join(sorted(versions))}: {text} ([how](README.md#how-to-repeat-a-study))."
 
 
 TABLES = {"measured": measured, "preparation-flat": preparation_flat, "preparation-slope": preparation_slope, "preparation": preparation_manual,
           "directions": directions, "finite-size": finite_size, "time-steps": time_steps, "fifty": fifty, "readings": readings, "walls": walls,
-          "smooth-walls": smooth_walls, "metastability": metastability, "dynamic-angle": dynamic_angle, "events": events,
+          "smooth-walls": smooth_walls, "rolling": rolling, "rolling-friction": rolling_friction, "metastability": metastability, "dynamic-angle": dynamic_angle, "events": events,
           "events-by-tilt": events_by_tilt, "announcing-failure": announcing, "cycles": cycles, "forces": forces, "tolerances": tolerances,
           "two-codes": two_codes, "two-codes-angles": two_codes_angles, "two-codes-programs": two_codes_programs,
           "two-codes-memory": two_codes_memory}

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws how the angle of repose depends on the length of periodic beds and of beds between walls, and how much load the walls carry.
 
-    python3 docs/studies/length.py docs/data/beds.csv -o runs/length.png
+    python3 docs/studies/length.py -o runs/length.png
 
 The beds of each length are those of the tables in docs/tables.py. It needs Debian's python3-numpy and python3-matplotlib."""
 
@@ -35,10 +35,9 @@ def draw_means(axes, beds, groups, quantity, style, label, aside=0.0):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
-    parser.add_argument("beds", help="docs/data/beds.csv")
     parser.add_argument("-o", "--output", required=True, metavar="FILE", help="picture to write")
     arguments = parser.parse_args()
-    beds = Beds(Path(arguments.beds).resolve())
+    beds = Beds()
     figure, (repose, ratio) = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
     draw_means(repose, beds, PERIODIC, "theta_c", "o-", "periodic", aside=-6)
     draw_means(repose, beds, WALLS, "theta_c", "s--", "between walls", aside=6)

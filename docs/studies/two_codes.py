@@ -14,6 +14,7 @@ Beds of 1200 grains are poured by Talus and brought to rest. From there the same
   lammps-1e5        by LAMMPS with k_n = 1e5 m g/D, from the positions and the contact forces,
   lammps-1e6        the same with 1e6 m g/D,
   positions         by Talus from the positions alone,
+  fine              the same with time steps of 0.1 ms instead of 1 ms,
   lammps-positions  by LAMMPS from the positions alone, 1e5 m g/D,
   rolling           by Talus from its stored state, with rolling friction from there on, mu_r = 0.05,
   lammps-rolling    the same by LAMMPS, from the positions and the contact forces, 1e5 m g/D.
@@ -49,12 +50,12 @@ from talus.lammps import Bed  # noqa: E402
 
 BED = {"bed.length": 60, "bed.depth": 20, "tilt.rate": 2, "tilt.step": 0.002, "output.frame_every": 1}
 #: Codes, and the largest seed of their beds; the angle of failure of a single bed is uncertain, so the means need many.
-CODES = {"talus": 1000, "again": 1000, "lammps-1e5": 1000, "positions": 4, "lammps-positions": 4, "rolling": 8, "lammps-rolling": 8,
-         "lammps-1e6": 8}
+CODES = {"talus": 1000, "again": 1000, "lammps-1e5": 1000, "positions": 1000, "fine": 1000, "lammps-positions": 4, "rolling": 8,
+         "lammps-rolling": 8, "lammps-1e6": 8}
 NAMES = {"again": "Talus again", "lammps-1e5": r"LAMMPS, $k_n = 10^5\,mg/D$", "lammps-1e6": r"LAMMPS, $k_n = 10^6\,mg/D$"}
 #: Minutes on one idle core for a bed, by code.
 MINUTES = {"talus": 0.2, "again": 0.2, "lammps-1e5": 3, "rolling": 0.3, "lammps-rolling": 10, "lammps-1e6": 9, "positions": 0.2,
-           "lammps-positions": 3}
+           "fine": 0.8, "lammps-positions": 3}
 FLOW, DISTANCE = 0.02, 5.0  # sqrt(g D) and D: a flow of the surface layer, and how far it goes in a failure
 FRICTION = 0.5              # mu
 ROLLING_FRICTION = 0.05     # mu_r
@@ -110,8 +111,10 @@ def compute(code, seed, runs, program):
         talus_run(program, path, "--branch", bed, "--at", "frame0")
     elif code == "rolling":
         talus_run(program, path, "--branch", bed, "--at", "frame0", "--set", f"contact.rolling_friction={ROLLING_FRICTION}")
-    elif code == "positions":
+    elif code in ("positions", "fine"):
         given = {"deposition.method": "file", "deposition.file": bed, "deposition.frame": 0}
+        if code == "fine":
+            given["tilt.step"] = BED["tilt.step"] / 10
         talus_run(program, path, *scenario_words(seed, BED | given))
     else:
         with talus.open(bed) as run:
