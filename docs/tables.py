@@ -12,6 +12,7 @@ PREPARATIONS = [POURED, ("2 sqrt(g D)", "pour-2"), ("10 sqrt(g D)", "pour-10"), 
                 ("friction 0.3 while pouring", "low-friction"), ("geometric", "geometric"), ("collapse", "all-at-once")]
 LENGTHS = [("50 D", "length-50"), ("100 D", "pour-6"), ("200 D", "paper-pbc"), ("400 D", "length-400")]
 STEPS = [("5 ms", "step-5ms"), ("1 ms", "pour-6"), ("0.25 ms", "step-250us")]
+RATES = [("0.5 deg/s", "rate-half"), ("2 deg/s", "rate-2")]
 WALL_LENGTHS = (100, 150, 200, 250, 300)
 #: Depth of the paper's beds, D, and its k_L - k_0.
 DEPTH, PAPER_K = 40.0, 2.5
@@ -25,6 +26,10 @@ def with_error(values, digits, scale=1.0):
     mean = f"{found['mean']:.{digits}f}"
     mean = mean if float(mean) else mean.lstrip("-")
     return f"{mean} ± {found['error']:.{digits}f}" if found["n"] > 1 else mean
+
+
+def signed(cell):
+    return cell if cell.startswith(("-", "–")) else f"+{cell}"
 
 
 def markdown(head, rows, text_columns=1):
@@ -75,6 +80,30 @@ def finite_size(beds):
 
 def time_steps(beds):
     return of_groups(beds, STEPS, "time step", FLAT + ANGLES + OVERLOAD[1:2] + TRANSITION)
+
+
+def rate_changes(beds, group, quantity):
+    """The values of a quantity less those at 1 deg/s of the same beds."""
+    values, others = (beds.values(each, quantity) for each in (group, "pour-6"))
+    return [values[seed] - others[seed] for seed in values.keys() & others.keys()]
+
+
+def rates(beds):
+    columns = [("theta_c", "theta_c, deg", 2), ("first_slide", "first slide, deg", 2), ("p_o@15", "p_o at 15 deg", 3), ("lc_jump", "l_c jumps, deg", 1),
+               ("percolation", "clusters span, deg", 1)]
+    rows = [["**1 deg/s**, values", str(len(beds.groups["pour-6"])), *(with_error(beds.values("pour-6", name).values(), digits) for name, _, digits in columns)]]
+    rows += [[label, str(len(beds.groups[group])), *(signed(with_error(rate_changes(beds, group, name), digits)) for name, _, digits in columns)]
+             for label, group in RATES]
+    return markdown(["rate", "beds", *(head for _, head, _ in columns)], rows)
+
+
+def rate_numbers(beds):
+    """GROUP.QUANTITY, the mean difference to the same beds at 1 deg/s with its error; .rms, its root mean square."""
+    found = {}
+    for group, quantity in ((group, quantity) for _, group in RATES for quantity in ("theta_c", "first_slide", "p_o@15")):
+        each = rate_changes(beds, group, quantity)
+        found |= {f"{group}.{quantity}": (summary(each)["mean"], summary(each)["error"]), f"{group}.{quantity}.rms": rms(each)}
+    return found
 
 
 #: What the paper gives, the quantity, its unit's digits and factor.
@@ -444,6 +473,16 @@ def two_codes_angles(_):
     return markdown(["second computation", "beds", "theta_c by Talus, deg", "its theta_c, deg", "difference, deg", "rms, deg"], rows)
 
 
+def two_codes_limits(_):
+    """What stiffer springs and shorter steps change."""
+    codes = {"LAMMPS, 1e5, less Talus": "lammps-1e5", "LAMMPS, 1e6, less Talus": "lammps-1e6", "Talus, 0.1 ms, less Talus, 1 ms": "fine"}
+    rows = [["theta_c, deg", *(with_error(differences(code, "theta_c"), 2) for code in codes.values())]]
+    for quantity, title, unit in (("z", "z", ""), ("displacement", "mean displacement", ", D")):
+        digits = OF_TWO_CODES[quantity][1]
+        rows += [[f"{title} at {tilt} deg{unit}", *(with_error(differences(code, f"{quantity}@{tilt}"), digits) for code in codes.values())] for tilt in (5, 10, 15)]
+    return markdown(["quantity", *codes], rows)
+
+
 def two_codes_memory(_):
     """The beds that were also computed from the positions alone: with the forces and without, by both codes."""
     values = two_codes_values()
@@ -511,7 +550,7 @@ def tolerances(_):
                      for _, key, digits, scale in columns]
         else:
             cells = [with_error(tolerance_changes(members, baseline, key, scale), digits) for _, key, digits, scale in columns]
-            cells = [cell if cell.startswith(("-", "–")) else f"+{cell}" for cell in cells]
+            cells = list(map(signed, cells))
         rows.append(["**baseline**, values" if members is baseline else f"`{name}`", str(len(members)), *cells])
     return markdown(["variation", "beds", *(column[0] for column in columns)], rows)
 
@@ -541,11 +580,11 @@ def measured(beds, *names):
 
 
 TABLES = {"measured": measured, "preparation-flat": preparation_flat, "preparation-slope": preparation_slope, "preparation": preparation_manual,
-          "directions": directions, "finite-size": finite_size, "time-steps": time_steps, "fifty": fifty, "readings": readings, "walls": walls,
+          "directions": directions, "finite-size": finite_size, "time-steps": time_steps, "rates": rates, "fifty": fifty, "readings": readings, "walls": walls,
           "smooth-walls": smooth_walls, "rolling": rolling, "rolling-friction": rolling_friction, "metastability": metastability, "dynamic-angle": dynamic_angle, "events": events,
           "events-by-tilt": events_by_tilt, "announcing-failure": announcing, "cycles": cycles, "forces": forces, "tolerances": tolerances,
           "two-codes": two_codes, "two-codes-angles": two_codes_angles, "two-codes-programs": two_codes_programs,
-          "two-codes-memory": two_codes_memory}
+          "two-codes-limits": two_codes_limits, "two-codes-memory": two_codes_memory}
 #: Numbers of single reports.
-REPORTS = {"walls": wall_numbers, "readings": reading_numbers, "forces": force_numbers, "ranking": ranking_numbers, "metastability": metastability_numbers,
+REPORTS = {"walls": wall_numbers, "rates": rate_numbers, "readings": reading_numbers, "forces": force_numbers, "ranking": ranking_numbers, "metastability": metastability_numbers,
            "tolerances": tolerance_numbers, "two-codes": two_codes_numbers}

@@ -3,7 +3,7 @@ the program, compares the two, and reports where the generated one is."""
 
 #: Versions of the tables in docs/file_format.md and docs/analysis.md.
 SCHEMA = 4
-ANALYSIS = 8
+ANALYSIS = 9
 
 #: Type, shape and unit by the path without its first slash; `*` stands for names that depend on the run. Letters of a
 #: shape are sizes (docs/file_format.md).

@@ -50,8 +50,8 @@ QuantityRows packing_rows() {
        "10)",
        moments, curve("σ_T/σ_N", "σ_T/σ_N of the packing", Observable::sigma_t_over_n)},
       {&FrameRecord::stress_ratio, "packing/stress_ratio", "T", "1",
-       "Gamma = Q/P (paper, Eq. 7); at least sin(theta) for a periodic bed in equilibrium, equal to it in "
-       "the paper's Eq. 11",
+       "Gamma = Q/P (paper, Eq. 7); at least sin(theta) for a periodic bed in equilibrium without rolling "
+       "friction, equal to it in the paper's Eq. 11",
        moments, curve("Γ = Q/P", "Γ = Q/P of the packing", Observable::stress_ratio)},
       {&FrameRecord::volume_strain, "packing/volume_strain", "T", "1",
        "(V - V0)/V0, V0 at the start of the tilt; negative = contraction; from /observables", "",
@@ -204,10 +204,11 @@ QuantityRows contact_rows() {
       {&FrameRecord::critical_bound, "contacts/critical_bound", "T", "1",
        "nu_max, the largest nu in equilibrium: 2 - (2 N + N_mu) / M for N free grains that carry force, N_mu "
        "of which have a contact with friction, and M force-carrying contacts (after McNamara and Herrmann "
-       "2004)"},
+       "2004); NaN if contacts resist rolling"},
       {&FrameRecord::critical_share_of_bound, "contacts/critical_share_of_bound", "T", "1",
-       "nu over nu_max; NaN if there are too few contacts for equilibrium (nu_max <= 0)", "",
-       curve("ν/ν_max", "ν over its bound")},
+       "nu over nu_max; NaN if there are too few contacts for equilibrium (nu_max <= 0), or if they resist "
+       "rolling",
+       "", curve("ν/ν_max", "ν over its bound")},
       {&FrameRecord::critical_clusters, "contacts/critical_clusters", "T", "1",
        "clusters of critical contacts, joined if they share a free grain"},
       {&FrameRecord::critical_mean, "contacts/critical_mean", "T", "1",

@@ -15,8 +15,8 @@ const std::array<SeriesField, observable_count> observable_fields = {{
     {"sigma_t_over_n", "1",
      "sigma_t / sigma_n; tan(theta) for a periodic bed in equilibrium (paper, Eq. 10)"},
     {"stress_ratio", "1",
-     "Gamma = Q/P of the packing (paper, Eq. 7); at least sin(theta) for a periodic bed in equilibrium, "
-     "equal to it in the paper's Eq. 11"},
+     "Gamma = Q/P of the packing (paper, Eq. 7); at least sin(theta) for a periodic bed in equilibrium "
+     "without rolling friction, equal to it in the paper's Eq. 11"},
     {"solid_fraction", "1", "area of the free grains over the area below the free surface"},
     {"coordination_number", "1",
      "z: force-carrying contacts per free grain that carries force, twice the contacts between free grains "

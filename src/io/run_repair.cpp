@@ -45,7 +45,7 @@ bool has_header(const std::string& folder) {
 }
 
 std::optional<std::string> folder_of(const std::string& run) {
-  if (is_file(run) && !run.ends_with(".toml")) return std::nullopt;
+  if (is_file(run) && !run.ends_with(".toml") && !begins_as_averages(run)) return std::nullopt;
   for (const std::string& folder : {run, run_folder(run)})
     if (is_there(path_in(folder, Manifest::file_name)) || has_header(folder)) return folder;
   refuse_no_run(run);

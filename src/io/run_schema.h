@@ -63,7 +63,7 @@ std::vector<std::uint64_t> dimensions(const DataSetField& field, const Sizes& si
 // The data sets in /analysis: a version, a key, parameters as texts, and the table of quantities.
 
 /// Increases with each change of the table or of the computation; analyses of other versions are repeated.
-inline constexpr std::int32_t analysis_version = 8;
+inline constexpr std::int32_t analysis_version = 9;
 
 /// Returns the data set of a quantity.
 DataSetField data_set_of(const analysis::Quantity& quantity);

@@ -89,7 +89,7 @@ shear_stress = Curves(
     "/ sigma_N = tan(theta), equilibrium of a periodic bed (paper, Eq. 10).", (("ratio", "packing/sigma_t_over_n"),))
 stress_ratio = Curves(
     "Stress ratio Gamma = Q/P of the packing over the sine of the tilt theta, up to theta_c. Dotted: Gamma = sin(theta), the least "
-    "value for a periodic bed in equilibrium (paper, Eq. 11).", (("ratio", "packing/stress_ratio"),))
+    "value for a periodic bed in equilibrium without rolling friction (paper, Eq. 11).", (("ratio", "packing/stress_ratio"),))
 overloaded_fraction = Curves(
     "Fraction p_o of overloaded grains among those that carry something over the tilt theta, for each threshold: gamma >= Gamma_c = "
     "sin(theta_c) as printed in the paper, and multiples of it.", (("p_o", "overloaded/fraction"),), overloaded_runs, True,

@@ -94,6 +94,11 @@ class WallSeries:
     depth: float  #: mean height of the beds, D
 
 
+def fit_text(series: WallSeries, several: bool) -> str:
+    notes = ["standard error"] * bool(np.isfinite(series.fit.error)) + [series.name] * several
+    return f"{series.fit} ({'; '.join(notes)})" if notes else str(series.fit)
+
+
 def wall_ratio(groups: Sequence[Group], wanted: Wanted) -> Data | None:
     data = Data()
     rows: list[tuple[float, ...]] = []
@@ -131,7 +136,7 @@ def wall_ratio(groups: Sequence[Group], wanted: Wanted) -> Data | None:
         data.tables[0].columns.append(column("series", "1", meaning, numbers))
     paper = shows_paper(walled, wanted)
     its = ", and with the paper's 2.5" if paper else ""
-    fits = "; ".join(f"{each.fit} (standard error{f'; {each.name}' if several else ''})" for each in series)
+    fits = "; ".join(fit_text(each, several) for each in series)
     means = ", ".join(rounded(each.depth, 1) for each in series)
     data.caption = (
         "(sigma_T / sigma_N) / tan(theta) of beds between walls over their length L, mean over the last 0.5 deg before theta_c and "

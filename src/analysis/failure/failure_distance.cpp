@@ -38,14 +38,16 @@ std::vector<ForceCount> count_forces(const BedFrame& bed, double height, int lay
 
 void measure_failure_distance(const BedFrame& bed, double height, FrameRecord& record) {
   ForceCount whole;
+  const bool is_bounded = bed.frame.contacts.moment.empty();
   for (const ForceCount& layer : count_forces(bed, height, critical_layers)) {
     record.layer_critical_share.push_back(layer.share());
-    record.layer_critical_share_of_bound.push_back(layer.share_of_bound());
+    record.layer_critical_share_of_bound.push_back(is_bounded ? layer.share_of_bound() : not_known);
     whole.grains += layer.grains;
     whole.turning += layer.turning;
     whole.contacts += layer.contacts;
     whole.critical += layer.critical;
   }
+  if (!is_bounded) return;
   record.critical_bound = whole.bound();
   record.critical_share_of_bound = whole.share_of_bound();
 }

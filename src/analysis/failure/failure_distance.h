@@ -23,8 +23,9 @@ struct ForceCount {
 
   /// Returns nu; NaN without contacts.
   double share() const { return critical / contacts; }
-  /// Returns nu_max = 2 - (2 N + N_mu) / M; equilibrium requires 2 M - M_critical >= 2 N + N_mu (McNamara and
-  /// Herrmann 2004, Phys. Rev. E 70, 061303, where N_mu = N). NaN without contacts.
+  /// Returns nu_max = 2 - (2 N + N_mu) / M; equilibrium requires 2 M - M_critical >= 2 N + N_mu if contacts
+  /// do not resist rolling (McNamara and Herrmann 2004, Phys. Rev. E 70, 061303, where N_mu = N). NaN without
+  /// contacts.
   double bound() const { return 2.0 - (2.0 * grains + turning) / contacts; }
   /// Returns nu / nu_max; NaN if the bound is not above 0.
   double share_of_bound() const { return bound() > 0.0 ? share() / bound() : not_known; }

@@ -12,7 +12,7 @@ namespace talus::house {
 namespace {
 
 const std::map<std::string, std::size_t> budgets = {
-    {"src/analysis", 5540}, {"src/app", 7131},      {"src/base", 1975},     {"src/contact", 730},
+    {"src/analysis", 5543}, {"src/app", 7131},      {"src/base", 1972},     {"src/contact", 730},
     {"src/core", 955},      {"src/dynamics", 1370}, {"src/ensemble", 3296}, {"src/exports", 2035},
     {"src/gui", 4390},      {"src/io", 4930},       {"src/library", 924},   {"src/pictures", 4365},
     {"src/problems", 1015}, {"src/runs", 850},      {"src/scenario", 2007}, {"src/session", 4770},

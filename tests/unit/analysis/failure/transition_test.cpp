@@ -178,6 +178,16 @@ TEST(FailureDistance, bound_is_where_unknown_forces_are_as_many_as_equations) {
   EXPECT_NEAR(record.critical_share_of_bound, 2.0, 1e-14);  // two are critical, so this is not an equilibrium
 }
 
+TEST(FailureDistance, of_contacts_that_resist_rolling_has_no_bound) {
+  Packing packing = two_layers();
+  packing.frame.contacts.moment.assign(static_cast<std::size_t>(packing.frame.contacts.count()), 0.0);
+  FrameRecord record;
+  measure_failure_distance(packing, 2.0, record);
+  EXPECT_TRUE(std::isnan(record.critical_bound) && std::isnan(record.critical_share_of_bound));
+  EXPECT_EQ(record.layer_critical_share.size(), 10u);
+  for (const double share : record.layer_critical_share_of_bound) EXPECT_TRUE(std::isnan(share));
+}
+
 // 10 components minus 5 for the contacts, which are all critical, and 6 equations without those of torques.
 TEST(FailureDistance, without_friction_has_no_torques_to_balance) {
   Packing packing = two_layers();
