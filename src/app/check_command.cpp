@@ -12,6 +12,7 @@
 #include "app/terminal.h"
 #include "base/errors.h"
 #include "base/text.h"
+#include "io/durable_file.h"
 #include "io/run_file.h"
 #include "scenario/keys.h"
 #include "scenario/scripted_command.h"
@@ -119,7 +120,7 @@ io::RunFile open_verified(const CheckArguments& arguments) {
   try {
     return io::RunFile::open(arguments.scenario);
   } catch (const Error& error) {
-    if (error.code() != ExitCode::bad_data) throw;
+    if (error.code() != ExitCode::bad_data || io::begins_as_averages(arguments.scenario)) throw;
     report_damage(arguments, error);
   }
 }

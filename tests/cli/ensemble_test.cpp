@@ -69,7 +69,9 @@ TEST_F(Ensemble, is_averaged_again_from_the_runs_of_its_members) {
   EXPECT_EQ(folder_.text("e/averages.csv"), before);
   EXPECT_EQ(count_of(folder_.text("e/members.csv"), "\n"), 3u);
   EXPECT_TRUE(folder_.has_file("e/ensemble.h5"));
-  EXPECT_TRUE(ends(talus({"check", "e/ensemble.h5"}), 65, {"e/ensemble.h5: is not a Talus run file"}));
+  const Outcome check = talus({"check", "e/ensemble.h5"});
+  EXPECT_TRUE(ends(check, 65, {"e/ensemble.h5: is not a Talus run file"}));
+  EXPECT_EQ(check.out, "") << "no damage";
   const std::string whole = folder_.text("e/seed-1.h5");
   write_file(folder_, "e/seed-1.h5", whole.substr(0, whole.size() / 2));
   EXPECT_TRUE(ends(talus({"ensemble", "average", "e"}), 65, {"e/seed-1.h5: is damaged"}));

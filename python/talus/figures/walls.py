@@ -95,6 +95,7 @@ class WallSeries:
 
 
 def fit_text(series: WallSeries, several: bool) -> str:
+    """Returns k_L - k_0 with what its error is, if it has one, and of which of several series it is."""
     notes = ["standard error"] * bool(np.isfinite(series.fit.error)) + [series.name] * several
     return f"{series.fit} ({'; '.join(notes)})" if notes else str(series.fit)
 
