@@ -434,16 +434,16 @@ def two_codes_values():
     return found
 
 
-def both_codes(code, quantity):
-    """The values of Talus and of a code for the beds that both have computed: two lists."""
-    reference, other = (two_codes_values().get(each, {}).get(quantity, {}) for each in (REFERENCES.get(code, "talus"), code))
+def both_codes(code, quantity, reference=None):
+    """The values of Talus, or of another code, and of a code for the beds that both have computed: two lists."""
+    reference, other = (two_codes_values().get(each, {}).get(quantity, {}) for each in (reference or REFERENCES.get(code, "talus"), code))
     seeds = sorted(reference.keys() & other.keys())
     return [reference[seed] for seed in seeds], [other[seed] for seed in seeds]
 
 
-def differences(code, quantity):
-    """The values of a code less those of Talus, bed by bed."""
-    return [other - own for own, other in zip(*both_codes(code, quantity), strict=True)]
+def differences(code, quantity, reference=None):
+    """The values of a code less those of Talus, or of another code, bed by bed."""
+    return [other - own for own, other in zip(*both_codes(code, quantity, reference), strict=True)]
 
 
 def two_codes(_, tilt):
@@ -475,25 +475,32 @@ def two_codes_angles(_):
 
 def two_codes_limits(_):
     """What stiffer springs and shorter steps change."""
-    codes = {"LAMMPS, 1e5, less Talus": "lammps-1e5", "LAMMPS, 1e6, less Talus": "lammps-1e6", "Talus, 0.1 ms, less Talus, 1 ms": "fine"}
-    rows = [["theta_c, deg", *(with_error(differences(code, "theta_c"), 2) for code in codes.values())]]
-    for quantity, title, unit in (("z", "z", ""), ("displacement", "mean displacement", ", D")):
-        digits = OF_TWO_CODES[quantity][1]
-        rows += [[f"{title} at {tilt} deg{unit}", *(with_error(differences(code, f"{quantity}@{tilt}"), digits) for code in codes.values())] for tilt in (5, 10, 15)]
-    return markdown(["quantity", *codes], rows)
+    pairs = {"LAMMPS, 1e5, less Talus": ("lammps-1e5",), "LAMMPS, 1e6, less 1e5": ("lammps-1e6", "lammps-1e5"),
+             "Talus, 0.1 ms, less 1 ms": ("fine",)}
+
+    def changes(name, quantity, digits):
+        each = {title: differences(code, quantity, *reference) for title, (code, *reference) in pairs.items()}
+        return [name, *(with_error(values, digits) for values in each.values())]
+
+    rows = [changes("theta_c, deg", "theta_c", 2)]
+    for quantity, tilts in (("z", (0, 5, 10, 15)), ("displacement", (5, 10, 15)), ("sigma_xx/sigma_yy", (0, 10)), ("a_t", (10,))):
+        title, digits = OF_TWO_CODES[quantity]
+        title, comma, unit = title.partition(",") if quantity == "displacement" else (title, "", "")
+        rows += [changes(f"{title} at {tilt} deg{comma}{unit}", f"{quantity}@{tilt}", digits) for tilt in tilts]
+    return markdown(["quantity", *pairs], rows)
 
 
 def two_codes_memory(_):
-    """The beds that were also computed from the positions alone: with the forces and without, by both codes."""
-    values = two_codes_values()
-    codes = {"Talus, with forces": "talus", "LAMMPS, with forces": "lammps-1e5", "Talus, positions": "positions", "LAMMPS, positions": "lammps-positions"}
+    """The beds that were also computed from the positions alone: their values with the forces, and what changes without, by both codes."""
+    codes = {"Talus": ("positions", "talus"), "LAMMPS": ("lammps-positions", "lammps-1e5")}
+    heads = [f"{name}, {len(both_codes(without, 'z@0', forces)[0])} beds" for name, (without, forces) in codes.items()]
     rows = []
     for tilt in (0, 10, 15):
-        for quantity, digits in (("sigma_xx/sigma_yy", 2), ("Gamma", 3), ("p_o", 3), ("z", 3)):
-            each = [values.get(code, {}).get(f"{quantity}@{tilt}", {}) for code in codes.values()]
-            seeds = set.intersection(*(set(one) for one in each))
-            rows.append([f"{quantity} at {tilt} deg", str(len(seeds)), *(with_error([one[seed] for seed in seeds], digits) for one in each)])
-    return markdown(["quantity", "beds", *codes], rows)
+        for quantity, digits in (("sigma_xx/sigma_yy", 3), ("Gamma", 3), ("p_o", 3), ("z", 3)):
+            of = [(without, f"{quantity}@{tilt}", forces) for without, forces in codes.values()]
+            rows.append([f"{quantity} at {tilt} deg", *(cell for each in of for cell in (with_error(both_codes(*each)[0], digits),
+                                                                                      signed(with_error(differences(*each), digits))))])
+    return markdown(["quantity", *(f"{head}, {which}" for head in heads for which in ("with forces", "change without"))], rows)
 
 
 def rms(values):
@@ -508,7 +515,8 @@ def two_codes_programs(_):
 
 def two_codes_numbers(_):
     """CODE.QUANTITY, the mean by this code with its error; .less, its difference to Talus; .talus, that of Talus for the same beds; .rms, the
-    root mean square of the difference; .beds, their number."""
+    root mean square of the difference; .beds, their number; .less_soft, the difference to lammps-1e5, and .less_forces, to the beds whose
+    forces were carried over."""
     found = {}
     for code, quantities in two_codes_values().items():
         for quantity in quantities:
@@ -517,6 +525,10 @@ def two_codes_numbers(_):
                 means = {"": summary(other), ".less": summary(differences(code, quantity)), ".talus": summary(own)}
                 found |= {f"{code}.{quantity}{suffix}": (mean["mean"], mean["error"]) for suffix, mean in means.items()}
                 found |= {f"{code}.{quantity}.beds": len(own), f"{code}.{quantity}.rms": rms(differences(code, quantity))}
+            for suffix, of, reference in (("less_soft", "lammps-1e6", "lammps-1e5"), ("less_forces", "positions", "talus"),
+                                          ("less_forces", "lammps-positions", "lammps-1e5")):
+                if code == of and (each := differences(code, quantity, reference)):
+                    found[f"{code}.{quantity}.{suffix}"] = summary(each)["mean"], summary(each)["error"]
     return found
 
 

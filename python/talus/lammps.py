@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from talus.frame import Frame
     from talus.run import Run
 
-#: Time steps in the duration of a contact of the two lightest grains.
+#: Time steps in the duration of a contact of the two lightest grains, with the stiffer of both springs.
 STEPS_IN_CONTACT = 30
 #: Surfaces of grains that come closer than this, in D, are watched while grains are moved.
 NEAR = 0.1
@@ -74,7 +74,8 @@ timestep ${{dt}}
 reset_timestep 0
 fix move free nve/sphere disc
 compute kt free ke
-compute kr free erotate/sphere
+compute sphere free erotate/sphere     # with the moment of inertia of spheres, 2/5 m r^2, not that of disks
+variable kr equal 1.25*c_sphere
 variable tilt equal v_begin
 variable gx equal sin(v_tilt*PI/180)
 variable gy equal -cos(v_tilt*PI/180)
@@ -82,7 +83,8 @@ variable g equal (v_grow>0)*(step*dt<v_grow)*step*dt/(v_grow+1e-9)+(step*dt>=v_g
 fix gravity all gravity v_g vector v_gx v_gy 0
 fix hold floor freeze
 variable resting equal round(v_relax/v_dt)
-thermo_style custom step v_tilt c_kt c_kr cpu
+thermo_style custom step v_tilt c_kt v_kr cpu
+thermo_modify norm no
 thermo $(ceil(v_resting/10))
 run ${{resting}}
 
@@ -100,9 +102,10 @@ compute moved free displace/atom
 compute surface surface reduce ave c_moved[1]
 compute flow free reduce/region layer ave vx
 variable tenth equal ceil(v_n/10)
-fix series all ave/time ${{tenth}} 10 $(10*v_tenth) v_tilt c_flow c_surface c_kt c_kr file slope.series
+fix series all ave/time ${{tenth}} 10 $(10*v_tenth) v_tilt c_flow c_surface c_kt v_kr file slope.series
 variable surface equal c_surface
 fix stop all halt $(10*v_n) v_surface > 7 error continue message no
+# Rows of slope.contacts: two grains, and the normal and the tangential force on the first, along x and y.
 compute pairs all property/local patom1 patom2 cutoff radius
 compute forces all pair/local fx fy p1 p2 cutoff radius
 variable frame equal round(100*v_every)*v_n
@@ -111,6 +114,7 @@ dump_modify grains sort id format float %.12g
 dump contacts all local ${{frame}} slope.contacts c_pairs[1] c_pairs[2] c_forces[1] c_forces[2] c_forces[3] c_forces[4]
 dump_modify contacts format float %.10g
 thermo_style custom step v_tilt c_kt c_flow c_surface cpu
+thermo_modify norm no
 thermo $(100*v_n)
 run $(round(100*(v_end-v_begin))*v_n)
 """
@@ -246,7 +250,8 @@ def write(frame: "Frame", folder: Any, k_n: Any, k_t: Any, forces: Any, overwrit
     title = title_of(frame)
     script = SCRIPT.format(
         title=title, rate=run.scenario["tilt"]["rate"] * math.sqrt(run.D / run.gravity), grow=0 if forces else 10, k_n=k_n, k_t=k_t,
-        friction=frame.friction, tilt=frame.tilt, step=math.pi * math.sqrt(lightest / 2 / k_n) / STEPS_IN_CONTACT, edge=edge)
+        friction=run.friction_of(frame.index, after=True), tilt=frame.tilt,
+        step=math.pi * math.sqrt(lightest / 2 / max(k_n, k_t)) / STEPS_IN_CONTACT, edge=edge)
     lines = [title, "", f"{len(bed.x)} atoms", "2 atom types", "", f"0 {bed.L:.17g} xlo xhi",
              f"{bed.y.min() - 1:.8g} {bed.y.max() + 40:.8g} ylo yhi", "-0.5 0.5 zlo zhi", "", "Atoms # sphere", ""]
     lines += [f"{i + 1} {kind} {2 * r:.17g} 1 {x:.17g} {y:.17g} 0"

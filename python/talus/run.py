@@ -260,20 +260,20 @@ class Run(Closed):
         name = "checkpoint/plane_offset"
         return len(self.storage.read(name)) if self.storage.has(name) else 3
 
-    def friction_of(self, k: int) -> float:
+    def friction_of(self, k: int, after: bool = False) -> float:
         """Returns the coefficient of friction between grains that was in force in the step which led to frame k, and
-        thus to its forces: as set by a command before, otherwise that of the scenario, of its deposition in the frame
-        of the bed at rest."""
+        thus to its forces, or that of the step `after` it: as set by a command before, otherwise that of the scenario, of
+        its deposition in the step that led to the bed at rest."""
         step, branch = self.step[k], self.storage.names("branch/reals")
-        if branch and step == self["branch/step"] and "last_friction" in branch:
+        if branch and step == self["branch/step"] and "last_friction" in branch and not after:
             return self["branch/reals/last_friction"]
         friction = self["branch/reals/friction"] if "friction" in branch else None
         for command in np.flatnonzero(self._commands["kind"] == KINDS.index("friction")):
-            if self._commands["step"][command] < step:
+            if self._commands["step"][command] < step + after:
                 friction = float(self._commands["x"][command])
         if friction is not None:
             return friction
-        deposited = self.scenario["deposition"].get("friction", "contact") if k == 0 and self.tilt[k] == 0 else "contact"
+        deposited = self.scenario["deposition"].get("friction", "contact") if k == 0 and self.tilt[k] == 0 and not after else "contact"
         return self.friction if deposited == "contact" else float(deposited)
 
     @property

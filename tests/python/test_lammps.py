@@ -66,6 +66,23 @@ def test_files_have_the_same_units_for_every_run(run, tmp_path):
         assert (tmp_path / "SI" / name).read_text() == (tmp_path / "D" / name).read_text()
 
 
+def test_the_slope_has_the_friction_of_the_tilt(folder, tmp_path):
+    run_talus("run", folder / "bed.toml", "--set", "deposition.friction=0.2", "--set", "tilt.end_angle=0.5", "-o", tmp_path / "bed.h5")
+    with talus.open(tmp_path / "bed.h5") as run:
+        assert run.frames[0].friction == 0.2, "of its forces"
+        run.frames[0].to_lammps(tmp_path / "slope")
+        assert f"variable mu equal {run.friction:.8g} " in (tmp_path / "slope/in.slope").read_text().replace("\n", " ")
+
+
+def test_time_steps_are_short_for_stiff_tangential_springs(run, tmp_path):
+    steps = {}
+    for k_t in (5e4, 1e5, 1e7):
+        run.frames[0].to_lammps(tmp_path, k_n=1e5, k_t=k_t, forces=False, overwrite=True)
+        [line] = [line for line in (tmp_path / "in.slope").read_text().split("\n") if line.startswith("variable n equal")]
+        steps[k_t] = float(line.split("/")[2].split(")")[0])
+    assert steps[5e4] == steps[1e5] == pytest.approx(10 * steps[1e7], rel=1e-6)
+
+
 def test_surface_layer_is_3_D_below_the_free_surface(run, tmp_path):
     frame = run.frames[0]
     frame.to_lammps(tmp_path, forces=False)
