@@ -84,9 +84,9 @@ def charts_of(found: "Reproduction") -> list[Chart]:
     for key in WALLS:
         for k, bed in enumerate(beds):
             if not bed.periodic:  # poured, as in the first preparation
-                value = paper.wall_value(key, bed.depth / bed.length)
+                value = paper.wall_value(key, found.depth_over_length(k))
                 packing.add_row(value, f"{bed.text}: {value.name}", [(found.spread(k, key), bed.depth)])
-    if found.wall_coefficient().runs > 1:
+    if found.wall_coefficient().values.count > 1:
         packing.add_row(paper.COEFFICIENT, f"walls: {paper.COEFFICIENT.name}", [(found.wall_coefficient(), paper.DEPTH)])
     chain = Chart("chain", [reading.base for reading in BASES])
     for first in found.preparations[:1]:

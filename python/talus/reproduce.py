@@ -108,11 +108,16 @@ class Reproduction:
         return [outcome.wall for bed, each in enumerate(self.beds) if not each.periodic for outcome in self.outcomes_of(bed)
                 if not math.isnan(outcome.wall[1])]
 
+    def depth_over_length(self, bed: int) -> float:
+        """Returns the mean H / L of a bed at failure, or that of its scenario if none has failed."""
+        found = [outcome.wall[0] for outcome in self.outcomes_of(bed) if not math.isnan(outcome.wall[0])]
+        return mean_of(found).mean if found else self.beds[bed].depth / self.beds[bed].length
+
     def wall_coefficient(self) -> Spread:
         """Returns k_L - k_0 of all beds between walls, with the standard error of the fit as its deviation."""
         points = self.wall_points()
         if not points:
-            return Spread(0, mean_of([]))
+            return Spread(sum(not self.beds[outcome.bed].periodic for outcome in self.outcomes), mean_of([]))
         fit = fit_wall_law(*np.array(points).T)
         return Spread(len(points), Mean(len(points), fit.k, fit.error, fit.error))
 
@@ -224,7 +229,7 @@ def wall_table(found: Reproduction) -> str:
     for key in WALLS:
         for k, bed in enumerate(found.beds):
             if not bed.periodic:
-                value = paper.wall_value(key, bed.depth / bed.length)
+                value = paper.wall_value(key, found.depth_over_length(k))
                 ours = judged_cell(value, found.spread(k, key), bed.depth)
                 rows.append([bed.text, name_text(value), paper_cell(value), ours])
     value = paper.COEFFICIENT
@@ -341,9 +346,9 @@ def summary(found: Reproduction) -> list[str]:
     counts = [f"{agreement_count(found, bed)} with {found.beds[bed].preparation}" for bed in found.preparations]
     items = [f"Of the paper's values for the packing, these agree: {listed(counts)}."] if counts else []
     coefficient = found.wall_coefficient()
-    if coefficient.runs > 1:
+    if coefficient.values.count > 1:
         items.append(f"Between walls, k_L - k_0 = {coefficient.values.mean:.2f} ± {coefficient.values.error:.2f} over "
-                     f"{coefficient.runs} runs; in the paper about 2.5.")
+                     f"{coefficient.values.count} runs; in the paper about 2.5.")
     return items + verdict(found, found.results())
 
 
@@ -354,7 +359,7 @@ INTRODUCTION = (
     'What L. Staron, J.-P. Vilotte and F. Radjai report in "Multiscale Analysis of the Stress State in a Granular Slope in '
     'Transition to Failure" (2005), and what Talus finds in beds made and tilted in the same way. Written by `talus reproduce`.')
 OF_WALLS = ("Deposition friction 0.5. The paper's Eq. 15: (sigma_T/sigma_N)/tan(theta) = 1 - (k_L - k_0)/3 H/L; its values for each "
-            "length are this with k_L - k_0 = 2.5.")
+            "length are this with k_L - k_0 = 2.5 and H = V/L, the mean height of our beds before failure.")
 OF_READINGS = (
     "The paper leaves open how its beds were made and some details of its data processing. Here its definitions are varied for "
     "each preparation, one factor at a time, from three readings: single grains with the printed threshold, single grains with "

@@ -178,7 +178,8 @@ def test_groups_are_named_by_what_differs(groups):
 
 def made_up(path="a/1.h5", seed=1, state="", commands=(), own=(), departures=(), **keys):
     """Returns a run of which only the description is known. `commands`: texts of those of its scenario."""
-    sections = {"bed": {"boundary": "periodic", "length": 12.0}, "contact": {"friction": 0.5, "wall_friction": 0.5}, "tilt": {"program": "none"}}
+    sections = {"bed": {"boundary": "periodic", "length": 12.0}, "contact": {"friction": 0.5, "wall_friction": 0.5}, "tilt": {"program": "none"},
+                "deposition": {"wall_friction": "contact"}}
     for key, value in keys.items():
         section, name = key.split("__")
         sections[section] = sections[section] | {name: value}
@@ -246,6 +247,32 @@ def test_walls_of_other_friction_have_a_law_of_their_own(beds, groups):
     assert [each.fit for each in two.facts["series"]] == [one.facts["series"][0].fit] * 2
     texts = figures.fig07(figures.group_runs(others)).talus_legend.get_texts()
     assert texts[0].get_text() == "beds between walls"
+
+
+def test_what_follows_a_failure_makes_no_other_bed(groups):
+    """The ratio between walls counts a bed once."""
+    runs = [run for group in groups["walls"] for run in group.runs]
+    held = [copy.copy(run) for run in runs]
+    for run in held:
+        run.state_hash += "flow"
+        run.scenario = {**run.scenario, "tilt": {**run.scenario["tilt"], "after_failure": "hold"}}
+    one, two = (find("7").data(figures.group_runs(each), Wanted()) for each in (runs, runs + held))
+    assert [each.values.tolist() for each in two.tables[0].columns] == [each.values.tolist() for each in one.tables[0].columns]
+    assert two.facts["series"][0].fit == one.facts["series"][0].fit
+
+
+def test_sections_are_shown_from_the_upper_wall(groups):
+    run = copy.copy(groups["walls"][0].runs[0])
+    table = find("6").data([figures.Group("forwards", [run])], Wanted()).tables[0]
+    run.rise = (*run.rise[:2], True)
+    mirrored = find("6").data([figures.Group("backwards", [run])], Wanted()).tables[0]
+    assert mirrored["x"].tolist() == table["x"].tolist() and mirrored["sigma_xx_repose"].tolist() == table["sigma_xx_repose"].tolist()[::-1]
+
+
+def test_a_periodic_bed_has_no_friction_of_walls():
+    runs = [made_up(f"{k}/1.h5", state="same", **{f"{section}__wall_friction": 0.1 * k}) for section in ("contact", "deposition") for k in (1, 2)]
+    [group] = figures.group_runs(runs)
+    assert [run.path for run in group.runs] == ["1/1.h5"], "each bed once"
 
 
 def test_curves_of_many_groups_differ():

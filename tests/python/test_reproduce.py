@@ -428,6 +428,15 @@ def test_the_chart_has_room_for_its_texts(reference, width):
     assert len(figure.legends[0].get_texts()) == 6
 
 
+def test_beds_between_walls_that_have_not_failed_lack_the_coefficient():
+    found = made_up(lambda bed, seed: {"stored": [{}, {}]}, lambda bed: (NAN, NAN))
+    coefficient = found.wall_coefficient()
+    assert (coefficient.runs, coefficient.values.count) == (10, 0)
+    assert paper.judge(paper.COEFFICIENT, coefficient, 40.0).text == "does not occur"
+    assert not any("k_L" in sentence for sentence in reproduce.summary(found))
+    assert found.depth_over_length(3) == 0.4, "of the scenario"
+
+
 def test_beds_between_walls_alone_are_compared():
     found = like_the_paper()
     walls = Reproduction(found.folder, found.beds[3:], found.seeds, [outcome._replace(bed=outcome.bed - 3) for outcome in found.outcomes if outcome.bed > 2])

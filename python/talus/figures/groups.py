@@ -63,6 +63,7 @@ def essence(scenario: dict[str, Any]) -> dict[str, Any]:
     keys = {name: value for name, value in flat(scenario).items() if not WITHOUT_EFFECT.fullmatch(name)}
     if keys["bed.boundary"] == "periodic":
         del keys["contact.wall_friction"]
+        keys["deposition.wall_friction"] = "contact"  # the default: no bed is named by it
     return keys
 
 
@@ -176,13 +177,15 @@ def kind_of(run: AnalysedRun) -> str:
 
 
 def parts_of(runs: Sequence[AnalysedRun]) -> list[list[AnalysedRun]]:
-    """Parts runs that are alike such that each part has a seed once: all of them, or those of each folder, or fewer. Raises
-    Error if a run occurs twice."""
+    """Parts runs that are alike such that each part has a seed once: all of them, or those of each folder, or fewer. Of runs that
+    differ only in settings without effect the first is taken. Raises Error if a run occurs twice."""
     known: dict[tuple[int, str], AnalysedRun] = {}
     for run in runs:
-        if one := known.get((run.seed, run.state_hash)):
+        one = known.get((run.seed, run.state_hash))
+        if one and one.scenario == run.scenario:
             raise Error(f"{one.path} and {run.path} are the same run (same scenario and seed); give only one of them")
-        known[run.seed, run.state_hash] = run
+        known[run.seed, run.state_hash] = one or run
+    runs = list(known.values())
     several_states = len({run.seed for run in runs}) < len(runs)
     parts: dict[tuple[Path, int], list[AnalysedRun]] = {}
     for run in runs:

@@ -18,8 +18,14 @@ from talus.paper import WALL_COEFFICIENT, wall_law
 
 
 def mean_weight(run: AnalysedRun) -> float:
-    """Returns M g / (2 L), Pa, the mean of sigma_yy in the horizontal bed at rest; M is the mass of its free grains."""
+    """Returns M g / (2 L), Pa, the mean of sigma_yy in a horizontal bed whose walls carry no weight; M is the mass of its free
+    grains."""
     return float(run.core.mass * run.core.gravity / (2 * run.length * run.core.diameter))
+
+
+def downslope(run: AnalysedRun, sections: np.ndarray) -> np.ndarray:
+    """Returns values of sections in their order from the upper wall."""
+    return sections[::-1] if run.rise[2] else sections
 
 
 def wall_stress(groups: Sequence[Group], wanted: Wanted) -> Data | None:
@@ -28,13 +34,13 @@ def wall_stress(groups: Sequence[Group], wanted: Wanted) -> Data | None:
         return None
     group, runs = chosen[0]  # the shortest bed
     data = Data(f"Normal stress sigma_xx of sections along the bed over their distance x from the upper wall, {group.label}, in units "
-                "of M g / (2 L), the mean of sigma_yy in the horizontal bed (M: mass of the grains). Means over "
+                "of M g / (2 L), the mean of sigma_yy in a horizontal bed whose walls carry no weight (M: mass of the grains). Means over "
                 f"{runs_text(len(runs))}, error bars: standard errors over these runs, none for a single run.", runs=list(runs))
     edges = runs[0].values("sections/edge")
     table = Table("", [column("x", "D", "middle of the section, from the upper wall downslope", 0.5 * (edges[1:] + edges[:-1]))])
     shown = [frames for frames in shown_frames([runs], wanted.at, ("0", "10", "repose"))[0] if len(frames.runs) == len(runs)]
     for frames in shown:
-        mean, error = mean_rows([run.values("sections/sigma_xx")[k] / mean_weight(run) for run, k in zip(runs, frames.frames)])
+        mean, error = mean_rows([downslope(run, run.values("sections/sigma_xx")[k]) / mean_weight(run) for run, k in zip(runs, frames.frames)])
         name = "sigma_xx_" + frames.name
         table.columns += [column(name, "M g / (2 L)", "mean sigma_xx of the section", mean),
                           column(name + "_error", "M g / (2 L)", "its standard error over the runs", error)]
@@ -110,9 +116,13 @@ def wall_ratio(groups: Sequence[Group], wanted: Wanted) -> Data | None:
     if not walled:
         return None
     for name, part in parts_by_length(walled):
-        first, depths, ratios = len(rows), [], []
+        first, depths, ratios, seen = len(rows), [], [], set()
         for group in part:
-            runs = of_group[id(group)]
+            # Runs that differ only in what followed their failure are one bed.
+            runs = [run for run in of_group[id(group)] if (run.length, run.seed) not in seen]
+            seen |= {(run.length, run.seed) for run in runs}
+            if not runs:
+                continue
             heights = [mean_depth(run) for run in runs]
             each = [run.number("packing/failure_ratio") for run in runs]
             spread = np.sqrt(np.mean([run.number("packing/failure_ratio_spread") ** 2 for run in runs]))

@@ -119,8 +119,8 @@ TEST(UnconvergedSteps, AreStatedWhereTheyAreFew) {
   EXPECT_TRUE(remark.usual);
   EXPECT_EQ(
       remark.text,
-      "0.089 % of the steps did not reach their tolerance (largest residual 6.6e-06 at rest, 0.00021 while "
-      "moving); this is usual (docs/solver.md).");
+      "0.089 % of the steps did not reach their tolerance (largest residual in the tilt 6.6e-06 at rest, "
+      "0.00021 while moving); this is usual (docs/solver.md).");
 }
 
 TEST(UnconvergedSteps, AreAWarningWhereTheyAreMany) {
