@@ -66,8 +66,7 @@ QuantityRows packing_rows() {
        "area of the free grains over V; from /observables"},
       {&Analysis::failure_ratio, "packing/failure_ratio", "", "1",
        "mean of (sigma_T / sigma_N) / tan(theta) over the last 0.5 deg before theta_c, from /observables: 1 "
-       "for a periodic bed, less between walls (paper, Eq. 15 and Fig. 7); NaN if the slope has not failed, "
-       "or without a row in these 0.5 deg"},
+       "for a periodic bed, less between walls (paper, Eq. 15, Fig. 7); NaN without failure or rows there"},
       {&Analysis::failure_ratio_spread, "packing/failure_ratio_spread", "", "1",
        "standard deviation of failure_ratio over these 0.5 deg"},
       {&Analysis::section_edge, "sections/edge", "X+1", "m",

@@ -66,7 +66,7 @@ CATALOGUE = (
     Recipe("fig06-wall-stress", "Stress sigma_xx along a bed between walls (paper, Fig. 6)",
            "the file of a bed between walls that has failed", walls.wall_stress, walls.draw_wall_stress, shows_frames=True),
     Recipe("fig07-wall-ratio", "Shear stress at failure over the length between walls (paper, Fig. 7)",
-           "a bed between walls that has failed", walls.wall_ratio, walls.draw_wall_ratio),
+           "a bed between walls that has failed, with rows in the last 0.5 deg before", walls.wall_ratio, walls.draw_wall_ratio),
     Recipe("fig08-stress-ratio-density", "Distribution of the stress ratio of grains (paper, Fig. 8)", "the distributions of " + THRESHOLD,
            distributions.gamma_density, distributions.draw_gamma_density, shows_frames=True),
     Recipe("fig09-overloaded-fraction", "Overloaded fraction over tilt (paper, Fig. 9)", THRESHOLD,
