@@ -66,8 +66,14 @@ class Beds:
         return groups
 
     def values(self, group, quantity):
-        """The values of a quantity over the beds that have one, by seed. `A-B` is the difference of two quantities, bed by bed; with
-        @0, @15, @before after a quantity it is that of a tilt or of 0.25 deg before theta_c."""
+        """The values of a quantity over the beds that have one, by seed. `A-B` is the difference of two quantities, bed by bed, and `A|B`
+        what is left of A after its linear regression on B; with @0, @15, @before after a quantity it is that of a tilt or of 0.25 deg before
+        theta_c."""
+        if "|" in quantity:
+            each, other = (self.values(group, name) for name in quantity.split("|"))
+            seeds = sorted(each.keys() & other.keys())
+            slope, constant = statistics.linear_regression([other[s] for s in seeds], [each[s] for s in seeds])
+            return {s: each[s] - slope * other[s] - constant for s in seeds}
         beds = self.groups[group]
         if "-" in quantity:
             minuend, subtrahend = quantity.split("-")
@@ -105,6 +111,7 @@ class Values:
     paper-pbc.theta_c-lc_jump        the same of a difference, bed by bed
     poured.theta_c.7                 of one seed
     paper-pbc.theta_c~lc_jump        a correlation over beds; .errors gives its distance from 0 in standard errors
+    paper-pbc.p_o@0|theta_c          what is left of a quantity after its linear regression on another
     paper-pbc.theta_c--collapse      a difference between two groups of beds; .errors gives it in its standard errors
     metastability.NAME, ...          computed for one report (docs/tables.py)
     """
