@@ -14,8 +14,8 @@ LENGTHS = [("50 D", "length-50"), ("100 D", "pour-6"), ("200 D", "paper-pbc"), (
 STEPS = [("5 ms", "step-5ms"), ("1 ms", "pour-6"), ("0.25 ms", "step-250us")]
 RATES = [("0.5 deg/s", "rate-half"), ("2 deg/s", "rate-2")]
 WALL_LENGTHS = (100, 150, 200, 250, 300)
-#: Depth of the paper's beds, D, and its k_L - k_0.
-DEPTH, PAPER_K = 40.0, 2.5
+#: The paper's k_L - k_0.
+PAPER_K = 2.5
 
 
 def with_error(values, digits, scale=1.0):
@@ -183,37 +183,51 @@ def rolling_friction(beds):
 # ---- Walls.
 
 
-def wall_k(beds, group, length):
-    """k_L - k_0 = 3 (1 - ratio) L / H of each bed (the paper's Eq. 15)."""
-    return [3 * (1 - ratio) * length / DEPTH for ratio in beds.values(group, "failure_ratio").values()]
+#: Beds between walls with friction and without: the beginning of the names of their groups.
+WALLS = {"rough": "paper-wbc", "smooth": "smooth-walls"}
+#: Readings of (sigma_T / sigma_N) / tan(theta) between walls: the column of beds.csv, the name.
+WALL_READINGS = {"failure_ratio": "before failure", "wall_ratio_from_offset": "before failure, less 0 deg", "wall_slope": "slope"}
 
 
-def walls(beds, prefix="paper-wbc", lengths=WALL_LENGTHS):
+def walls(beds, which):
+    columns = [("theta_c, deg", "theta_c", 2), ("first slide, deg", "first_slide", 2), ("sigma_T/sigma_N at 0 deg", "wall_offset", 3),
+               *((name, reading, 3) for reading, name in WALL_READINGS.items())]
+    return of_groups(beds, [(f"{length} D", f"{WALLS[which]}-{length}") for length in WALL_LENGTHS], "L", columns)
+
+
+def wall_points(beds, which, reading):
+    """H / L, with H = V / L, and the ratio of each bed between walls, by length; of lengths that have been computed."""
+    points = {length: [(bed["wall_height"] / length, bed[reading]) for bed in beds.groups[f"{WALLS[which]}-{length}"]] for length in WALL_LENGTHS}
+    return {length: each for length, each in points.items() if not math.isnan(each[0][0])}
+
+
+def wall_fit(points):
+    """k_L - k_0 of the law 1 - (k_L - k_0) / 3 H / L (the paper's Eq. 15), by least squares, and its standard error."""
+    square = sum(x * x for x, _ in points)
+    k = 3 * sum(x * (1 - ratio) for x, ratio in points) / square
+    return k, 3 * math.sqrt(sum((ratio - 1 + k / 3 * x) ** 2 for x, ratio in points) / (len(points) - 1) / square)
+
+
+def wall_coefficients(beds):
     rows = []
-    for length in lengths:
-        group = f"{prefix}-{length}"
-        rows.append([f"{length} D", str(len(beds.groups[group])), *(with_error(beds.values(group, q).values(), 2) for q in ("theta_c", "first_slide")),
-                     with_error(beds.values(group, "failure_ratio").values(), 3), with_error(wall_k(beds, group, length), 2)])
-    return markdown(["L", "beds", "theta_c, deg", "first slide, deg", "ratio", "k_L - k_0"], rows)
-
-
-def smooth_walls(beds):
-    return walls(beds, "smooth-walls", (100, 200, 300))
-
-
-def one_value(means):
-    """The weighted mean of some means with their errors, and the chi-squared of a fit by it."""
-    weighted = sum(m["mean"] / m["error"] ** 2 for m in means) / sum(m["error"] ** -2 for m in means)
-    return weighted, sum(((m["mean"] - weighted) / m["error"]) ** 2 for m in means)
+    for which in WALLS:
+        for reading, name in WALL_READINGS.items():
+            points = wall_points(beds, which, reading)
+            fits = [each and wall_fit(each) for each in [*map(points.get, WALL_LENGTHS), sum(points.values(), [])]]
+            rows.append([which, name, *("–" if fit is None else f"{fit[0]:.2f} ± {fit[1]:.2f}" for fit in fits)])
+    return markdown(["walls", "reading", *(f"{length} D" for length in WALL_LENGTHS), "all beds"], rows, text_columns=2)
 
 
 def wall_numbers(beds):
-    each = {length: wall_k(beds, f"paper-wbc-{length}", length) for length in WALL_LENGTHS}
-    everything = summary(value for values in each.values() for value in values)
-    means = [summary(values) for values in each.values()]
-    longer = one_value(means[1:])
-    return {"k": (everything["mean"], everything["error"]), "k_errors": (everything["mean"] - PAPER_K) / everything["error"],
-            "chi_squared": one_value(means)[1], "k_from_150": longer[0], "chi_squared_from_150": longer[1]}
+    """k_L - k_0 of all beds by the kind of walls and the reading, rough.wall_slope, with its error; .LENGTH, that of one length; and height,
+    the mean height of the beds."""
+    found = {}
+    for which, reading in ((which, reading) for which in WALLS for reading in WALL_READINGS):
+        points = wall_points(beds, which, reading)
+        found |= {f"{which}.{reading}": wall_fit(sum(points.values(), []))}
+        found |= {f"{which}.{reading}.{length}": wall_fit(each) for length, each in points.items()}
+    found["height"] = statistics.mean(length * x for which in WALLS for length, each in wall_points(beds, which, "wall_slope").items() for x, _ in each)
+    return found
 
 
 # ---- Metastability.
@@ -593,7 +607,7 @@ def measured(beds, *names):
 
 TABLES = {"measured": measured, "preparation-flat": preparation_flat, "preparation-slope": preparation_slope, "preparation": preparation_manual,
           "directions": directions, "finite-size": finite_size, "time-steps": time_steps, "rates": rates, "fifty": fifty, "readings": readings, "walls": walls,
-          "smooth-walls": smooth_walls, "rolling": rolling, "rolling-friction": rolling_friction, "metastability": metastability, "dynamic-angle": dynamic_angle, "events": events,
+          "wall-coefficients": wall_coefficients, "rolling": rolling, "rolling-friction": rolling_friction, "metastability": metastability, "dynamic-angle": dynamic_angle, "events": events,
           "events-by-tilt": events_by_tilt, "announcing-failure": announcing, "cycles": cycles, "forces": forces, "tolerances": tolerances,
           "two-codes": two_codes, "two-codes-angles": two_codes_angles, "two-codes-programs": two_codes_programs,
           "two-codes-limits": two_codes_limits, "two-codes-memory": two_codes_memory}

@@ -18,19 +18,34 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from quoted_numbers import Beds, summary  # noqa: E402
-from tables import DEPTH, LENGTHS, PAPER_K, WALL_LENGTHS, wall_numbers  # noqa: E402
+from tables import LENGTHS, PAPER_K, WALL_LENGTHS, WALL_READINGS, WALLS, wall_numbers  # noqa: E402
 
 PERIODIC = {int(label.removesuffix(" D")): group for label, group in LENGTHS}
-WALLS = {length: f"paper-wbc-{length}" for length in WALL_LENGTHS}
 
 
-def draw_means(axes, beds, groups, quantity, style, label, aside=0.0):
+def between(walls):
+    return {length: f"{WALLS[walls]}-{length}" for length in WALL_LENGTHS}
+
+
+def draw_means(axes, beds, groups, quantity, style, label, aside=0.0, hollow=False):
     """Single beds as small points, `aside` of their length, and means with standard errors."""
     found = {length: list(beds.values(group, quantity).values()) for length, group in groups.items()}
     for length, each in found.items():
         axes.plot([length + aside] * len(each), each, ".", color="0.75", markersize=3, zorder=1)
     means = [summary(each) for each in found.values()]
-    axes.errorbar(list(found), [m["mean"] for m in means], [m["error"] for m in means], fmt=style, color="black", capsize=3, label=label, zorder=2)
+    axes.errorbar(list(found), [m["mean"] for m in means], [m["error"] for m in means], fmt=style, color="black", capsize=3, label=label,
+                  markerfacecolor="white" if hollow else "black", zorder=2)
+
+
+def draw_readings(axes, beds, walls, k):
+    """The ratio before failure and the slope, each with the law of its k_L - k_0, and the paper's law."""
+    length = np.linspace(80, 320, 100)
+    for reading, symbol, line, aside in (("failure_ratio", "s", "-", -5), ("wall_slope", "o", "--", 5)):
+        fit = k[f"{walls}.{reading}"][0]
+        draw_means(axes, beds, between(walls), reading, symbol, f"{WALL_READINGS[reading]}, $k_L - k_0$ = {fit:.1f}", aside, hollow=symbol == "o")
+        axes.plot(length, 1 - fit * k["height"] / (3 * length), line, color="black", linewidth=1)
+    axes.plot(length, 1 - PAPER_K * k["height"] / (3 * length), ":", color="black", label=f"the paper, $k_L - k_0$ = {PAPER_K}")
+    axes.set(xlabel="$L$ ($D$)", ylabel=r"$(σ_T / σ_N) / \tan θ$", title=f"{walls} walls", xlim=(80, 320), ylim=(0.2, 0.95))
 
 
 def main():
@@ -38,17 +53,15 @@ def main():
     parser.add_argument("-o", "--output", required=True, metavar="FILE", help="picture to write")
     arguments = parser.parse_args()
     beds = Beds()
-    figure, (repose, ratio) = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
+    figure, (repose, *ratios) = plt.subplots(1, 3, figsize=(10, 3.6), layout="constrained")
     draw_means(repose, beds, PERIODIC, "theta_c", "o-", "periodic", aside=-6)
-    draw_means(repose, beds, WALLS, "theta_c", "s--", "between walls", aside=6)
+    draw_means(repose, beds, between("rough"), "theta_c", "s--", "rough walls", aside=6)
+    draw_means(repose, beds, between("smooth"), "theta_c", "^:", "smooth walls", aside=12, hollow=True)
     repose.set(xlabel="$L$ ($D$)", ylabel="$θ_c$ (°)", xlim=(0, 420))
-    draw_means(ratio, beds, WALLS, "failure_ratio", "s", "beds and their means")
-    length = np.linspace(80, 320, 100)
-    for k, style, whose in ((wall_numbers(beds)["k"][0], "k-", "mean of the beds"), (PAPER_K, "k:", "the paper's")):
-        ratio.plot(length, 1 - k * DEPTH / (3 * length), style, label=f"$k_L - k_0$ = {k:.1f}, {whose}")
-    ratio.set(xlabel="$L$ ($D$)", ylabel=r"$(σ_T / σ_N) / \tan θ$", xlim=(80, 320), ylim=(0.3, 0.95))
-    for axes in (repose, ratio):
-        axes.legend(frameon=False)
+    for axes, walls in zip(ratios, WALLS):
+        draw_readings(axes, beds, walls, wall_numbers(beds))
+    for axes in (repose, *ratios):
+        axes.legend(frameon=False, fontsize="small")
     figure.savefig(arguments.output, dpi=110)
 
 
