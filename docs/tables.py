@@ -183,8 +183,8 @@ def rolling_friction(beds):
 # ---- Walls.
 
 
-#: Beds between walls with friction and without: the beginning of the names of their groups.
-WALLS = {"rough": "paper-wbc", "smooth": "smooth-walls"}
+#: Beds between walls with friction and without, and geometric ones between walls with friction: the beginning of the names of their groups.
+WALLS = {"rough": "paper-wbc", "smooth": "smooth-walls", "geometric": "geometric-walls"}
 #: Readings of (sigma_T / sigma_N) / tan(theta) between walls: the column of beds.csv, the name.
 WALL_READINGS = {"failure_ratio": "before failure", "wall_ratio_from_offset": "before failure, less 0 deg", "wall_slope": "slope"}
 
@@ -192,13 +192,15 @@ WALL_READINGS = {"failure_ratio": "before failure", "wall_ratio_from_offset": "b
 def walls(beds, which):
     columns = [("theta_c, deg", "theta_c", 2), ("first slide, deg", "first_slide", 2), ("sigma_T/sigma_N at 0 deg", "wall_offset", 3),
                *((name, reading, 3) for reading, name in WALL_READINGS.items())]
-    return of_groups(beds, [(f"{length} D", f"{WALLS[which]}-{length}") for length in WALL_LENGTHS], "L", columns)
+    groups = {f"{length} D": f"{WALLS[which]}-{length}" for length in WALL_LENGTHS}
+    return of_groups(beds, [(label, group) for label, group in groups.items() if group in beds.groups], "L", columns)
 
 
 def wall_points(beds, which, reading):
     """H / L, with H = V / L, and the ratio of each bed between walls, by length; of lengths that have been computed."""
-    points = {length: [(bed["wall_height"] / length, bed[reading]) for bed in beds.groups[f"{WALLS[which]}-{length}"]] for length in WALL_LENGTHS}
-    return {length: each for length, each in points.items() if not math.isnan(each[0][0])}
+    groups = {length: beds.groups.get(f"{WALLS[which]}-{length}", []) for length in WALL_LENGTHS}
+    points = {length: [(bed["wall_height"] / length, bed[reading]) for bed in group] for length, group in groups.items()}
+    return {length: each for length, each in points.items() if each and not math.isnan(each[0][0])}
 
 
 def wall_fit(points):
@@ -214,7 +216,7 @@ def wall_coefficients(beds):
         for reading, name in WALL_READINGS.items():
             points = wall_points(beds, which, reading)
             fits = [each and wall_fit(each) for each in [*map(points.get, WALL_LENGTHS), sum(points.values(), [])]]
-            rows.append([which, name, *("–" if fit is None else f"{fit[0]:.2f} ± {fit[1]:.2f}" for fit in fits)])
+            rows.append([which, name, *(f"{fit[0]:.2f} ± {fit[1]:.2f}" if fit else "–" for fit in fits)])
     return markdown(["walls", "reading", *(f"{length} D" for length in WALL_LENGTHS), "all beds"], rows, text_columns=2)
 
 
@@ -224,7 +226,7 @@ def wall_numbers(beds):
     found = {}
     for which, reading in ((which, reading) for which in WALLS for reading in WALL_READINGS):
         points = wall_points(beds, which, reading)
-        found |= {f"{which}.{reading}": wall_fit(sum(points.values(), []))}
+        found |= {f"{which}.{reading}": wall_fit(sum(points.values(), []))} if points else {}
         found |= {f"{which}.{reading}.{length}": wall_fit(each) for length, each in points.items()}
     found["height"] = statistics.mean(length * x for which in WALLS for length, each in wall_points(beds, which, "wall_slope").items() for x, _ in each)
     return found

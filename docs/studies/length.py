@@ -58,7 +58,7 @@ def main():
     draw_means(repose, beds, between("rough"), "theta_c", "s--", "rough walls", aside=6)
     draw_means(repose, beds, between("smooth"), "theta_c", "^:", "smooth walls", aside=12, hollow=True)
     repose.set(xlabel="$L$ ($D$)", ylabel="$θ_c$ (°)", xlim=(0, 420))
-    for axes, walls in zip(ratios, WALLS):
+    for axes, walls in zip(ratios, ("rough", "smooth")):
         draw_readings(axes, beds, walls, wall_numbers(beds))
     for axes in (repose, *ratios):
         axes.legend(frameon=False, fontsize="small")
