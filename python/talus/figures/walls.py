@@ -118,9 +118,10 @@ def wall_ratio(groups: Sequence[Group], wanted: Wanted) -> Data | None:
     for name, part in parts_by_length(walled):
         first, depths, ratios, seen = len(rows), [], [], set()
         for group in part:
-            # Runs that differ only in what followed their failure are one bed.
-            runs = [run for run in of_group[id(group)] if (run.length, run.seed) not in seen]
-            seen |= {(run.length, run.seed) for run in runs}
+            # Runs that differ only in what followed their failure are one bed, and have the same ratio to the last bit.
+            beds = {(run.length, run.seed, run.number("packing/failure_ratio")): run for run in of_group[id(group)]}
+            runs = [run for bed, run in beds.items() if bed not in seen]
+            seen |= beds.keys()
             if not runs:
                 continue
             heights = [mean_depth(run) for run in runs]
